@@ -9,7 +9,9 @@ const BAUD_RATE = 115_200;
 export async function openSerial(path: string): Promise<Transport> {
   // Loaded here, because a server with a virtual board never needs it.
   const { SerialPort } = await import("serialport");
-  const port = new SerialPort({ path, baudRate: BAUD_RATE, autoOpen: false, lock: true });
+  // An Arduino restarts at each change of the line DTR, and a Grbl then forgets its place. Without hupcl the line stays as it
+  // is when the port is closed, also if this process is killed, so that the next one finds the Grbl running. Not on Windows.
+  const port = new SerialPort({ path, baudRate: BAUD_RATE, autoOpen: false, lock: true, hupcl: false });
   await new Promise<void>((resolve, reject) => {
     port.open((error) => (error ? reject(openError(path, error)) : resolve()));
   });

@@ -12,7 +12,7 @@ const WHY_NOT: readonly (readonly [pattern: RegExp, why: string])[] = [
   [/^\$SLP$/, "the Grbl would not answer until it is reset. Switch the motors off on the page instead"],
   [
     /^\$H/,
-    "the Grbl does not answer while it seeks its switches. Push the carriage to home and set home there instead",
+    "the Grbl does not answer while it seeks its switches. Home the machine on the page instead; its profile must say that it finds home",
   ],
   [/^\$C$/, "the Grbl would accept lines and not move. To check a drawing, look at its preview instead"],
 ];

@@ -1,5 +1,6 @@
 /** Grbl's replies and real-time commands. */
 import { PlotwrightError } from "../../errors.js";
+import { homeAgain } from "../faults.js";
 import { difference, sum, type Axes } from "./model/planner.js";
 
 /** Real-time commands: single bytes that act at once, need no line end and no room in the buffer, and get no `ok`. */
@@ -7,6 +8,9 @@ export const NOW = { status: "?", hold: "!", reset: "\x18" } as const;
 
 /** The receive buffer of an Arduino, in characters, including line ends. */
 export const RX_BYTES = 128;
+
+/** Brings the carriage to its switches. The Grbl says nothing until it is there. */
+export const HOME = "$H";
 
 /** Reports the parser's modes, as a line that begins with MODES_REPORT, and changes nothing. */
 export const CHECK = "$G";
@@ -144,13 +148,16 @@ const ALARMS: Readonly<Record<number, string>> = {
   3: "the machine was reset during a motion",
   6: "the machine was reset while it sought its switches",
   8: "a switch was not released after homing",
-  9: "a switch was not found",
+  9:
+    "a switch was not found. It may be unplugged, or the Grbl seeks one that the machine does not have, often that of Z: " +
+    "take that axis out of its homing cycle",
 };
 
-export const alarm = (code: number | null): PlotwrightError =>
+/** `findsHome`: the machine finds home by itself. */
+export const alarm = (code: number | null, findsHome: boolean): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    `The Grbl has stopped with ${named(code)}. Check the carriage's position, and push it to home before you resume.`,
+    `The Grbl has stopped with ${named(code)}. Check the carriage's position: ${homeAgain(findsHome)}.`,
   );
 
 function named(code: number | null): string {
@@ -158,19 +165,22 @@ function named(code: number | null): string {
   return `ALARM:${code}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}`;
 }
 
-export const boardRestartedError = (): PlotwrightError =>
+export const boardRestartedError = (findsHome: boolean): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    "The Grbl has restarted: its reset button was pressed, or its supply failed. Its pen is lifted first. " +
-      "Push the carriage to home before you resume.",
+    "The Grbl has restarted: its reset button was pressed, or its supply failed. Its pen is lifted first. Its position is " +
+      `lost: ${homeAgain(findsHome)}.`,
   );
 
 /** A lock that only the user may remove, because the Grbl wants to be homed. */
-export const locked = (): PlotwrightError =>
+export const locked = (findsHome: boolean): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    "The Grbl is locked until it is homed ($22=1), and nothing unlocks it without you. Lift the pen and push the " +
-      "carriage to home by hand, then send $X in the console; or home it with another program.",
+    "The Grbl is locked until it is homed ($22=1), and nothing unlocks it without you. " +
+      (findsHome
+        ? "Home the machine: that unlocks it."
+        : "If the machine has switches, switch on that it finds home with them in its profile, and home it. Otherwise lift the pen " +
+          "and push the carriage to home by hand, then send $X in the console."),
   );
 
 const CABLE = "Check the USB cable and its distance from motors and mains.";

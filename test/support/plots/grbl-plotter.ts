@@ -32,6 +32,11 @@ class WeakLine implements Transport {
   isDeaf = false;
   /** Time until a reply is read, s. */
   lateS = 0;
+  /** What the cable carries to the board. */
+  bytesPerS = Infinity;
+  /** The host does not run for this part of each second, s. */
+  stalledS = 0;
+  private sentS = 0;
   private lost: (error?: Error) => void = () => undefined;
   private isLost = false;
 
@@ -42,14 +47,15 @@ class WeakLine implements Transport {
 
   write(bytes: Uint8Array): Promise<void> {
     if (this.isDeaf) return Promise.resolve();
-    if (!this.isLost) return this.line.write(bytes);
+    if (!this.isLost) return this.sendTimed(bytes);
     return Promise.reject(new PlotwrightError("disconnected", "The cable is unplugged."));
   }
 
   onData(listener: (bytes: Uint8Array) => void): void {
     this.line.onData((bytes) => {
       if (this.isMute || this.isLost) return;
-      if (this.lateS > 0) this.clock.after(this.lateS, () => listener(bytes));
+      const lateS = Math.max(this.lateS, this.stalledS - (this.clock.nowS() % 1));
+      if (lateS > 0) this.clock.after(lateS, () => listener(bytes));
       else listener(bytes);
     });
   }
@@ -63,6 +69,14 @@ class WeakLine implements Transport {
     return this.line.close();
   }
 
+  private sendTimed(bytes: Uint8Array): Promise<void> {
+    if (this.bytesPerS === Infinity) return this.line.write(bytes);
+    const nowS = this.clock.nowS();
+    this.sentS = Math.max(nowS, this.sentS) + bytes.length / this.bytesPerS;
+    this.clock.after(this.sentS - nowS, () => void this.line.write(bytes));
+    return Promise.resolve();
+  }
+
   unplug(): void {
     this.isLost = true;
     this.lost(new Error("unplugged"));
@@ -73,8 +87,15 @@ class WeakLine implements Transport {
 export async function newPlotter(options: VirtualGrblOptions = {}, machine: MachineProfile = GRBL) {
   const world = new ManualClock();
   const board = new VirtualGrbl({ clock: world, speed: 1, machine }, options);
+  return { world, board, ...(await plotterOn(board, world, machine)) };
+}
+
+/** A process that plots on a Grbl, which may have been left by another. */
+export async function plotterOn(board: VirtualGrbl, world: ManualClock, machine: MachineProfile = GRBL) {
   const lines: WeakLine[] = [];
+  let isDead = false;
   const open = (): Promise<Transport> => {
+    if (isDead) return Promise.reject(new PlotwrightError("no-board", "The process is dead."));
     lines.push(new WeakLine(board.transport(), world));
     return Promise.resolve(lines[lines.length - 1]);
   };
@@ -89,6 +110,10 @@ export async function newPlotter(options: VirtualGrblOptions = {}, machine: Mach
     world.run(driver.plot(planner, settings, start));
   const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
   const line = (): WeakLine => lines[lines.length - 1];
+  /** As kill -9 does: nothing is sent any more. */
+  const kill = (): void => {
+    isDead = line().isDeaf = line().isMute = true;
+  };
   /** It is connected again if necessary, and still works. */
   const mustWork = async (lostCount = 0): Promise<void> => {
     await world.advance(5);
@@ -103,7 +128,7 @@ export async function newPlotter(options: VirtualGrblOptions = {}, machine: Mach
     expect(driver.state).toMatchObject({ xMm: expect.closeTo(12, 1), yMm: expect.closeTo(13, 1) });
     expect(driver.state.penUp).toBe(true);
   };
-  return { world, board, driver, begin, within, line, mustWork };
+  return { driver, begin, within, line, kill, mustWork };
 }
 
 export async function newMachine(options: VirtualGrblOptions = {}) {

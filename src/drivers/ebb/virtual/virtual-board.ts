@@ -45,6 +45,8 @@ const IN_CORNER: CarriagePlace = { xMm: 0, yMm: 0 };
 /** The least firmware with limit switches is 3.0.0. */
 const HOMING_FIRMWARE = "3.0.3";
 
+const SHORTEST_S = 1e-9;
+
 /** Min supply voltage at which the motors turn. */
 const MIN_MOTOR_VOLTS = 7;
 
@@ -401,7 +403,8 @@ export class VirtualBoard {
     const tick = this.nextTick();
     if (tick === Infinity || this.speed === Infinity || this.isClosed) return;
     const delayS = (tick - this.core.nowTick) / (TICKS_PER_S * this.speed);
-    this.cancelTimer = this.realClock.after(Math.max(0, delayS), () => {
+    // A shorter delay may be lost to rounding, and the time of the timer then never comes.
+    this.cancelTimer = this.realClock.after(Math.max(SHORTEST_S, delayS), () => {
       this.cancelTimer = null;
       this.run();
     });

@@ -19,6 +19,7 @@ const SETTING = {
   softLimits: 20,
   homing: 22,
   homingDirections: 23,
+  pullOff: 27,
   maxSignal: 30,
   laserMode: 32,
   speed: 110,
@@ -54,6 +55,16 @@ export class BoardSettings {
   /** It locks itself at each start, until it is homed. */
   get hasHoming(): boolean {
     return this.isOn(SETTING.homing);
+  }
+
+  /** Where the search for the switches ends, in machine coordinates; null: it does not say. */
+  get afterHoming(): Axes | null {
+    const pullOff = this.values.get(SETTING.pullOff);
+    if (!this.hasHoming || pullOff === undefined) return null;
+    if (this.isOriginAtSwitches) return [0, 0, 0];
+    const travel = (axis: number): number => this.values.get(SETTING.travel + axis) ?? 0;
+    const end = (axis: number): number => (this.isHomedLow(axis) ? pullOff - travel(axis) : -pullOff);
+    return [end(0), end(1), end(2)];
   }
 
   /** Those that a plan has to follow: the Grbl's own, and the lower of both speeds. */
@@ -143,8 +154,12 @@ export class BoardSettings {
   private limitsOf(axis: number): Range | null {
     const travel = this.values.get(SETTING.travel + axis);
     if (travel === undefined) return null;
-    const isAtLowEnd = (((this.values.get(SETTING.homingDirections) ?? 0) >> axis) & 1) === 1;
-    return this.isOriginAtSwitches && isAtLowEnd ? [0, travel] : [-travel, 0];
+    return this.isOriginAtSwitches && this.isHomedLow(axis) ? [0, travel] : [-travel, 0];
+  }
+
+  /** Its switch is at the low end of the axis. */
+  private isHomedLow(axis: number): boolean {
+    return (((this.values.get(SETTING.homingDirections) ?? 0) >> axis) & 1) === 1;
   }
 
   private isOn(setting: number): boolean {

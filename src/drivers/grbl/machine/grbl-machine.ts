@@ -1,6 +1,4 @@
-/**
- * One connected Grbl: the position of its carriage and pen, and the operations that move them. If the position is unknown, the carriage is assumed to be at home.
- */
+/** One connected Grbl: where its carriage and pen are, and what moves them. A carriage whose place is unknown counts as at home. */
 import { PlotwrightError } from "../../../errors.js";
 import { positionFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
@@ -23,8 +21,9 @@ import { grblCommandsOf, MODES, planGrblJob, SYNC, type GrblCommands, type GrblS
 import { findsHome } from "../model/grbl-controller.js";
 import { penLiftOf, waitLine, type PenLift } from "../model/pen-lift.js";
 import { difference, type Axes } from "../model/planner.js";
-import { isLocked, locked, noSwitches, NOT_LIFTED, servoSignalOf, type Status } from "../protocol.js";
+import { HOME, isLocked, locked, noSwitches, NOT_LIFTED, servoSignalOf, type Status } from "../protocol.js";
 import { whyRefused } from "../console-lines.js";
+import { homeByMark, homeMark, type GrblMemory } from "./kept-home.js";
 import { GrblPlayback } from "./grbl-playback.js";
 import { LineStream } from "./line-stream.js";
 import type { GrblSession } from "./session.js";
@@ -35,13 +34,7 @@ const STOP_MS = 30;
 const BELOW = 0.25;
 /** A share of the pen's travel from which the pen counts as up. */
 const UP = 0.99;
-/** The longest way of a pen, whose height is unknown. */
 const WHOLE_PCT = 100;
-
-interface GrblMemory {
-  readonly home: Axes | null;
-  readonly penZeroMm: number | null;
-}
 
 export class GrblMachine implements Machine {
   readonly homing = { seekHome: (settings: MachineSettings): Promise<boolean> => this.seekHome(settings) };
@@ -86,7 +79,8 @@ export class GrblMachine implements Machine {
   }
 
   get state(): MachineState | null {
-    return this.home && this.profile && this.stateFrom(this.home, this.profile);
+    const { home, profile } = this;
+    return this.session.failure || !home || !profile ? null : this.stateFrom(home, profile);
   }
 
   get memory(): GrblMemory {
@@ -108,21 +102,23 @@ export class GrblMachine implements Machine {
       await session.brake();
       await session.reset();
     }
-    this.profile = machineOf(settings);
+    const profile = machineOf(settings);
+    this.use(profile);
     await session.readSettings();
-    this.note = session.settings.slowerThan(this.profile);
+    this.note = session.settings.slowerThan(profile);
     await session.tryCheck();
     await session.readOffset();
     // Again, because only now the units are known.
     const status = await session.status();
+    if (!isLocked(status.state)) this.remember(status, before, profile);
     await this.recovered(status);
-    if (!hasRestarted(status) && !isLocked(status.state)) this.remember(before);
     if (!this.isLocked) await this.liftLeft(status, settings, before);
   }
 
   async prepareMotors(settings: MachineSettings): Promise<MachineState> {
-    this.profile = machineOf(settings);
-    penLiftOf(this.profile);
+    const profile = machineOf(settings);
+    this.use(profile);
+    penLiftOf(profile);
     // The Grbl locks itself when it is woken, because the carriage may have been pushed. It counts as at home then.
     if (this.isAsleep) await this.recovered(await this.session.reset(), true);
     this.isAsleep = false;
@@ -131,7 +127,7 @@ export class GrblMachine implements Machine {
     const home = this.home ?? (await this.homeIsHere());
     this.motorsOn = true;
     this.options.events.changed();
-    return this.stateFrom(home, this.profile);
+    return this.stateFrom(home, profile);
   }
 
   async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
@@ -218,7 +214,7 @@ export class GrblMachine implements Machine {
     stopSignal.throwIfAborted();
     this.isHoming = true;
     try {
-      await session.seekSwitches();
+      await session.send(HOME);
     } finally {
       this.isHoming = false;
     }
@@ -244,6 +240,7 @@ export class GrblMachine implements Machine {
 
   forgetPosition(): Promise<void> {
     this.home = this.foundMidPlot = null;
+    if (!this.isAsleep) this.markHome().catch(() => undefined);
     this.options.events.changed();
     return Promise.resolve();
   }
@@ -348,13 +345,24 @@ export class GrblMachine implements Machine {
     // If they are refused, so is the next move.
     if (isLocked(state)) await this.session.attempt("$X");
     await this.session.attempt(MODES);
+    await this.markHome();
+  }
+
+  /** Tells a later process where home is, as far as that is possible. */
+  private markHome(): Promise<void> {
+    return this.session.attempt(homeMark(this.penZeroMm === null ? this.home : null, this.session.settings));
+  }
+
+  private use(profile: MachineProfile): void {
+    this.profile = profile;
+    this.session.findsHome = findsHome(profile);
   }
 
   /** Throws if the Grbl is still locked; the user may have unlocked it meanwhile. */
   private async mustBeUnlocked(): Promise<void> {
     if (!this.isLocked) return;
     await this.recovered(await this.session.status());
-    if (this.isLocked) throw locked();
+    if (this.isLocked) throw locked(this.session.findsHome);
   }
 
   /**
@@ -418,10 +426,13 @@ export class GrblMachine implements Machine {
   }
 
   /** A Grbl that was not restarted still counts from the same place. */
-  private remember(before: PenBefore | null): void {
-    const { home, penZeroMm } = (before?.memory ?? { home: null, penZeroMm: null }) as GrblMemory;
-    this.home = home;
-    this.penZeroMm = penZeroMm;
+  private remember(status: Status, before: PenBefore | null, profile: MachineProfile): void {
+    const { foundModes, settings } = this.session;
+    const marked = homeByMark(foundModes, status.machineAt, profile, settings);
+    const memory = hasRestarted(status) ? null : (before?.memory as GrblMemory | null | undefined);
+    this.penZeroMm = memory?.penZeroMm ?? null;
+    this.home = memory?.home ?? marked;
+    this.machineAt = status.machineAt;
     this.options.events.changed();
   }
 
@@ -429,6 +440,7 @@ export class GrblMachine implements Machine {
     const { machineAt } = await this.session.status();
     this.home = this.machineAt = machineAt;
     this.foundMidPlot = null;
+    await this.markHome();
     this.options.events.changed();
     return machineAt;
   }

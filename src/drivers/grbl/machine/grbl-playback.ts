@@ -15,6 +15,7 @@ import type { Machine, Playback, PlaybackEvents, PlaybackRequest } from "../../d
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { PlaybackProgress, type PenMoment, type PlotProgress } from "../../playback-progress.js";
 import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
+import { findsHome } from "../model/grbl-controller.js";
 import { boardRestartedError } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
 
@@ -49,6 +50,8 @@ export class GrblPlayback implements Playback {
   private requested: PlotwrightError | null = null;
   private isEmergency = false;
   private failure: PlotwrightError | null = null;
+  /** `receivedPlace` when the last play failed. */
+  private receivedAtEnd: StrokePosition | undefined = undefined;
   private readonly strokes: StrokeSet;
   private readonly events: PlaybackEvents;
 
@@ -64,8 +67,13 @@ export class GrblPlayback implements Playback {
     return this.current;
   }
 
-  /** A Grbl that is connected again has lost its position, so a later place than the journal's is of no use. */
-  readonly receivedPlace = undefined;
+  get receivedPlace(): StrokePosition | undefined {
+    if (!this.current) return this.receivedAtEnd;
+    const { plot, stream } = this.current;
+    const planS = stream.receivedS;
+    if (planS === null || planS <= firstStrokeS(plot.trajectory)) return undefined;
+    return estimatedPosition(plot.trajectory, planS) ?? this.endOfDrawing();
+  }
 
   now(): PlotProgress | null {
     if (!this.current) return null;
@@ -84,6 +92,7 @@ export class GrblPlayback implements Playback {
     this.stopped = null;
     this.requested = null;
     this.isEmergency = false;
+    this.receivedAtEnd = undefined;
     // `fail` may have been called while the pen was lifted.
     if (this.failure) throw this.failure;
     const commands = grblCommandsOf(plot.commands);
@@ -99,6 +108,8 @@ export class GrblPlayback implements Playback {
       this.events.progressed(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
       left = progress.place;
     } catch (error) {
+      // Before the stream is asked to stop.
+      this.receivedAtEnd = this.receivedPlace;
       left = certainPosition(this.current) ?? progress.place;
       // The caller of `fail` takes care of the machine.
       if (this.failure || !(error instanceof PlotwrightError)) throw error;
@@ -107,7 +118,8 @@ export class GrblPlayback implements Playback {
       const isLost = machine.positionMm(machineOf(settings)) === null;
       // The Grbl may have failed before the stop was requested.
       if (isLost || error !== this.requested) {
-        throw await machine.liftAfter(error === this.requested ? boardRestartedError() : error, settings);
+        const lost = boardRestartedError(findsHome(machineOf(settings)));
+        throw await machine.liftAfter(error === this.requested ? lost : error, settings);
       }
       this.stopped = { place: left };
     } finally {
@@ -169,6 +181,12 @@ export class GrblPlayback implements Playback {
   private wasStopped(): boolean {
     return this.stopped !== null;
   }
+}
+
+/** When the first stroke of a plan begins. */
+function firstStrokeS({ runs }: Trajectory): number {
+  const run = runs.stroke.findIndex((stroke) => stroke >= 0);
+  return run < 0 ? Infinity : runs.startS[run];
 }
 
 /** Everything before it is certainly drawn. The line may overlap where it resumes. */

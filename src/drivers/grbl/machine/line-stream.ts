@@ -25,6 +25,8 @@ export class LineStream {
   /** Grbl restarted or stopped by itself, so its position is lost. */
   isBroken = false;
   private isSettled = false;
+  /** `receivedS` when the connection was lost, after which nothing can be stopped. */
+  private receivedAtLossS: number | null | undefined = undefined;
   private clearing: Promise<Status> | null = null;
   /** When a stop was requested: the plan's time hardly advances during the braking. */
   private stopS: number | null = null;
@@ -62,6 +64,10 @@ export class LineStream {
           this.isBroken = true;
           this.settle(error);
         },
+        lost: (error) => {
+          this.receivedAtLossS = this.receivedS;
+          this.settle(error);
+        },
         outOfStep: (error) => this.miss(this.certainS, error),
         held: () => {
           if (!this.isOver) this.onHeld();
@@ -86,6 +92,17 @@ export class LineStream {
     const fromS = this.planS;
     const steps = this.isOver ? 0 : Math.min(count, Math.floor((this.takenS - fromS) / stepS));
     return Array.from({ length: steps }, (_, k) => fromS + (k + 1) * stepS);
+  }
+
+  /**
+   * What the Grbl draws even if nothing more is sent, seconds along the plan; null once it may be stopped before, or some of it
+   * is unsure.
+   */
+  get receivedS(): number | null {
+    if (this.receivedAtLossS !== undefined) return this.receivedAtLossS;
+    return this.clearing || this.stopS !== null || this.missedS !== null || this.isBroken
+      ? null
+      : this.takenS;
   }
 
   /** Bounds of the position, seconds along the plan. */

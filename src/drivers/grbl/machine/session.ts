@@ -12,12 +12,14 @@ import { LineSession, type LineProtocol } from "../../line-session.js";
 import type { SessionLog } from "../../session-log.js";
 import { SilenceWatch } from "../../silence-watch.js";
 import { delay, type Clock, type Transport } from "../../transport.js";
+import { SYNC } from "../grbl-job.js";
 import { QUEUE_MOVES, type Axes } from "../model/planner.js";
 import {
   alarm,
   buffersOf,
   CHECK,
   HAL_FIRMWARE,
+  HOME,
   isGreeting,
   isHeld,
   isLocked,
@@ -38,20 +40,14 @@ import {
   type Status,
 } from "../protocol.js";
 import { BoardSettings } from "./board-settings.js";
-
-type Settle = (error: PlotwrightError | null) => void;
-
-interface SentLine {
-  readonly line: string;
-  readonly settle: Settle;
-  /** A check whose report has come. */
-  isReported: boolean;
-}
+import { SentLines, type Settle } from "./sent-lines.js";
 
 /** What a job that is being played learns from the session. */
 export interface PlayListener {
-  /** The board restarted, stopped by itself or is lost. Called before the unanswered lines are settled. */
+  /** The board restarted or stopped by itself. Called before the unanswered lines are settled, like `lost`. */
   broken(error: PlotwrightError): void;
+  /** The connection is lost. The board goes on with what it has received. */
+  lost(error: PlotwrightError): void;
   /** Answers do not fit the lines, so it is unknown which lines were refused. */
   outOfStep(error: PlotwrightError): void;
   /** A button of the machine holds it. */
@@ -62,11 +58,6 @@ export interface PlayListener {
 const PATIENCE_S = 3;
 /** The same for a machine that says it runs, but whose position does not change: it may be very slow. */
 const SLOW_S = 30;
-/**
- * Characters of the board's buffer that stay free: some boards have one less than they report, and a doubled answer lets
- * one more line be sent.
- */
-const SPARE_BYTES = 32;
 const REFUSED_TRIES = 10;
 const REST_TRIES = 200;
 const OFFSET_TRIES = 35;
@@ -77,9 +68,10 @@ const RESET_ALARMS: readonly (number | null)[] = [3, 6];
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
 const IDENTIFY_TRIES = 4;
 const IDENTIFY_S = 1;
+/** How long a Grbl may take for what is in its buffers, s. */
+const FINISH_S = 60;
 /** The longest search for switches, s. */
 const HOMING_S = 180;
-const HOME = "$H";
 /** Time for braking. */
 const HOLD_S = 0.5;
 
@@ -93,12 +85,14 @@ export class GrblSession implements LineProtocol {
   isLockOurs = false;
   /** The board knows the command of a check. */
   canCheck = false;
-  /** The latest report of the parser's modes; "": none has come. */
+  /** The machine finds home by itself. */
+  findsHome = false;
+  /** The latest report of the parser's modes, and the first one, from before any reset of ours; "": none has come. */
   modes = "";
+  foundModes = "";
 
   private buffers = { queueMoves: QUEUE_MOVES, rxBytes: RX_BYTES };
-  private sentBytes = 0;
-  private sent: SentLine[] = [];
+  private readonly sent = new SentLines();
   /** Work zero in machine coordinates, in the board's units, which may be known only later. Null: not yet reported. */
   private reportedOffset: Axes | null = null;
   private statusWaiters: ((status: Status) => void)[] = [];
@@ -148,25 +142,46 @@ export class GrblSession implements LineProtocol {
 
   private async askVersion(isAgain: boolean): Promise<string | null> {
     // A Grbl that sleeps, holds or works for another program answers only after a reset. Reset in motion it is locked.
-    if (this.lastStatus && isMoving(this.lastStatus.state)) {
-      this.now(NOW.hold);
-      await delay(this.clock, HOLD_S);
+    if (isAgain) {
+      if (this.lastStatus && isMoving(this.lastStatus.state)) {
+        this.now(NOW.hold);
+        await delay(this.clock, HOLD_S);
+      }
+      this.now(NOW.reset);
+      this.foundModes = "";
     }
-    if (isAgain) this.now(NOW.reset);
-    this.now(NOW.status);
-    const tooLate = delay(this.clock, IDENTIFY_S);
-    // "$" asks for help. It spoils a line that was left unfinished, such as G1X1 of G1X100, so that it is refused.
-    const answered = Promise.allSettled(["$", "", "$I"].map((line) => this.send(line))).then(() => undefined);
-    await Promise.race([answered, tooLate]);
-    this.dropSent(silent("$I"));
-    // A reply to an earlier attempt must not count for a later line.
-    if (isAgain) await tooLate;
+    // "$" asks for help. It spoils a line that was left unfinished, such as G1X1 of G1X100, so that it is refused. "$I" is
+    // refused in motion.
+    const lines = ["$", "", CHECK, SYNC, "$I"];
+    await this.untilQuiet(Promise.allSettled(lines.map((line) => this.send(line))), isAgain);
+    this.sent.settleAll(silent("$I"));
     return this.version;
+  }
+
+  /**
+   * A Grbl may still draw what a process that has ended has sent. It answers late then, and first to those lines. Its place
+   * is known only at the end. `isAgain`: a reply to an earlier attempt must not count for a later line.
+   */
+  private async untilQuiet(answered: Promise<unknown>, isAgain: boolean): Promise<void> {
+    const { clock, log } = this;
+    let isAnswered = false;
+    void answered.then(() => (isAnswered = true));
+    const untilS = clock.nowS() + FINISH_S;
+    let quietSinceS = clock.nowS();
+    while (clock.nowS() < untilS && clock.nowS() - quietSinceS < IDENTIFY_S) {
+      const { count } = log;
+      this.now(NOW.status);
+      await Promise.race([delay(clock, POLL_S), ...(isAnswered ? [] : [answered])]);
+      if (isAnswered && this.version !== null && !isAgain && clock.nowS() < untilS - FINISH_S + POLL_S)
+        return;
+      const isBusy = log.count > count || (this.lastStatus !== null && isMoving(this.lastStatus.state));
+      if (isBusy && !isAgain) quietSinceS = clock.nowS();
+    }
   }
 
   /** Whether the buffer has room for another line now. */
   hasRoom(line: string): boolean {
-    return this.sent.length === 0 || this.sentBytes + line.length + 1 <= this.buffers.rxBytes - SPARE_BYTES;
+    return this.sent.hasRoom(line, this.buffers.rxBytes);
   }
 
   /** Work zero in machine coordinates, mm. */
@@ -184,11 +199,10 @@ export class GrblSession implements LineProtocol {
   /** Sends one line; `settle` is called once, with its reply or an error. */
   write(line: string, settle: Settle): void {
     if (this.failure) return settle(this.failure);
-    this.sent.push({ line, settle, isReported: false });
-    this.sentBytes += line.length + 1;
+    this.sent.add(line, settle);
     this.lines.writeLines([line]);
     // Not measured from an old reply.
-    if (this.sent.length === 1) {
+    if (this.sent.count === 1) {
       this.lines.expectWithin(line === HOME ? HOMING_S : PATIENCE_S);
       this.expectAnswer();
     }
@@ -224,11 +238,6 @@ export class GrblSession implements LineProtocol {
   async readSettings(): Promise<void> {
     this.settings.forget();
     await this.attempt("$$");
-  }
-
-  /** Brings the carriage to its switches. The Grbl says nothing until it is there. */
-  seekSwitches(): Promise<void> {
-    return this.send(HOME);
   }
 
   /** Asks until it reports its work offset, as it does at least once in 30 reports. One that never does has none. */
@@ -289,7 +298,7 @@ export class GrblSession implements LineProtocol {
     const greeted = this.within<void>("a reset", (resolve) => this.greetingWaiters.push(resolve));
     this.now(NOW.reset);
     await greeted;
-    this.dropSent(stopped());
+    this.sent.settleAll(stopped());
     return this.status();
   }
 
@@ -332,15 +341,16 @@ export class GrblSession implements LineProtocol {
     else if (line.startsWith("error:")) this.settleFirst(line);
     else if (line.startsWith(MODES_REPORT)) {
       this.modes = line;
+      this.foundModes ||= line;
       this.checkReported();
     } else if (alarmed) {
       const code = alarmed[1] === "" ? null : Number(alarmed[1]);
       const isOurs = RESET_ALARMS.includes(code) || line.includes("Abort during cycle");
       if (isOurs && this.greetingWaiters.length > 0) this.isLockOurs = true;
-      else this.broken(alarm(code));
+      else this.broken(alarm(code, this.findsHome));
     } else if (isGreeting(line)) {
       const waiters = this.greetingWaiters.splice(0);
-      if (waiters.length === 0) this.broken(boardRestartedError());
+      if (waiters.length === 0) this.broken(boardRestartedError(this.findsHome));
       for (const waiter of waiters) waiter();
     }
   }
@@ -361,14 +371,13 @@ export class GrblSession implements LineProtocol {
     if (hasMoved || isSlow) this.expectAnswer();
     for (const waiter of this.statusWaiters.splice(0)) waiter(status);
     if (!this.playing || this.resetting) return;
-    if (isLocked(status.state)) this.broken(alarm(null));
+    if (isLocked(status.state)) this.broken(alarm(null, this.findsHome));
     else if (isHeld(status.state)) this.playing.held();
   }
 
   private settleFirst(errorReply: string | null): void {
-    const first = this.sent.shift();
+    const first = this.sent.next();
     if (!first) return this.playing?.outOfStep(outOfStep());
-    this.sentBytes -= first.line.length + 1;
     this.progressS = this.clock.nowS();
     this.expectAnswer();
     // The answer was that of another line.
@@ -378,21 +387,21 @@ export class GrblSession implements LineProtocol {
   }
 
   private checkReported(): void {
-    const first = this.sent.at(0);
+    const first = this.sent.first;
     if (first?.line === CHECK) first.isReported = true;
     else this.playing?.outOfStep(outOfStep());
   }
 
   /** From now on the answer to the first line is due, after the wait that the line asks for. */
   private expectAnswer(): void {
-    const first = this.sent.at(0);
+    const first = this.sent.first;
     const isHoming = first?.line === HOME;
     const waitS = isHoming ? HOMING_S : Number(/^G4P([\d.]+)/.exec(first?.line ?? "")?.[1] ?? 0);
     this.missing.expect(first ? PATIENCE_S + waitS : Infinity);
   }
 
   private answerMissing(): void {
-    const first = this.sent.at(0);
+    const first = this.sent.first;
     if (!first || this.resetting || !this.isIdentified) return;
     const error = unanswered(first.line, this.lastStatus?.state ?? "silent");
     if (this.playing) this.playing.outOfStep(error);
@@ -404,12 +413,7 @@ export class GrblSession implements LineProtocol {
     // Without a job, the machine would keep a position that is wrong now. Connecting again finds out the board's state.
     if (this.isIdentified && !this.playing) return this.lines.fail(error);
     this.playing?.broken(error);
-    this.dropSent(error);
-  }
-
-  private dropSent(error: PlotwrightError): void {
-    this.sentBytes = 0;
-    for (const { settle } of this.sent.splice(0)) settle(error);
+    this.sent.settleAll(error);
   }
 
   /**
@@ -417,24 +421,26 @@ export class GrblSession implements LineProtocol {
    * and one report may be lost.
    */
   private poll(): void {
-    const isWaiting = (this.sent.length > 0 && this.sent[0].line !== HOME) || this.statusWaiters.length > 0;
+    const isWaiting =
+      (this.sent.count > 0 && this.sent.first?.line !== HOME) || this.statusWaiters.length > 0;
     if (this.failure || this.cancelPoll || !isWaiting) return;
     this.cancelPoll = this.clock.after(POLL_S, () => {
       this.cancelPoll = null;
-      if (this.sent.length > 0 || this.statusWaiters.length > 0) this.now(NOW.status);
+      if (this.sent.count > 0 || this.statusWaiters.length > 0) this.now(NOW.status);
       this.poll();
     });
   }
 
   silent(): void {
-    if (this.sent.length > 0) this.lines.fail(silent(this.sent[0].line));
+    const { first } = this.sent;
+    if (first) this.lines.fail(silent(first.line));
   }
 
   ended(error: PlotwrightError): void {
     this.missing.stop();
     this.cancelPoll?.();
-    this.playing?.broken(error);
-    this.dropSent(error);
+    this.playing?.lost(error);
+    this.sent.settleAll(error);
     for (const failed of this.failures.splice(0)) failed(error);
   }
 }

@@ -51,6 +51,7 @@ export class Modes {
   /** "M5": its output is off. */
   private spindle = "M5";
   private speed = 0;
+  private tool = 0;
 
   /** The signal of the spindle's output; null if it is off. */
   get signal(): number | null {
@@ -60,7 +61,7 @@ export class Modes {
   /** As `$G` reports them. */
   get words(): string {
     const motion = this.isRapid ? "G0" : "G1";
-    return `${motion} G54 G17 G21 G90 G94 ${this.spindle} M9 T0 F${this.feed} S${this.speed}`;
+    return `${motion} G54 G17 G21 G90 G94 ${this.spindle} M9 T${this.tool} F${this.feed} S${this.speed}`;
   }
 
   /** Takes M3, M5 and S out of a line. Whether the signal changes; null if it does and may not yet. */
@@ -75,6 +76,11 @@ export class Modes {
     return isChange;
   }
 
+  takeTool(words: Map<string, number>): void {
+    this.tool = words.get("T") ?? this.tool;
+    words.delete("T");
+  }
+
   /** False for a move whose feed is missing. */
   takeMotion(modes: readonly string[], words: ReadonlyMap<string, number>, isMove: boolean): boolean {
     if (modes.includes("G0")) this.isRapid = true;
@@ -87,7 +93,7 @@ export class Modes {
 
   reset(): void {
     this.isRapid = true;
-    this.feed = this.speed = 0;
+    this.feed = this.speed = this.tool = 0;
     this.spindle = "M5";
   }
 }

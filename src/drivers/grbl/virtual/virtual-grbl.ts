@@ -249,6 +249,7 @@ export class VirtualGrbl implements VirtualMachine {
     const block = wordsOf(line);
     if (typeof block === "number") return block;
     const { modes, words } = block;
+    this.modes.takeTool(words);
     const isChange = this.modes.takeSpindle(block, this.motion.isEmpty);
     if (isChange === null) return null;
     if (isChange) {

@@ -68,6 +68,7 @@ export class VirtualSettings {
       20: 0,
       22: 0,
       23: 0,
+      27: 1,
       30: 1_000,
       31: 0,
       32: 0,

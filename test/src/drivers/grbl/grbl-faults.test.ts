@@ -217,7 +217,7 @@ describe("a restart at rest", () => {
     expect(await within(driver.move({ kind: "move-to", xMm: 100, yMm: 50 }))).toBeUndefined();
     board.restart();
     expect(driver.state).toMatchObject({ connection: "fault", xMm: null, penUp: null, motorsOn: null });
-    expect(driver.state.message).toMatch(/^The Grbl has restarted: .*Push the carriage to home/);
+    expect(driver.state.message).toMatch(/^The Grbl has restarted: .*push the carriage to home/);
     await world.advance(5);
     expect(driver.state).toMatchObject({ connection: "idle", xMm: null });
     expect(await within(driver.move({ kind: "move-to", xMm: 5, yMm: 6 }))).toBeUndefined();
