@@ -33,7 +33,7 @@ export interface LiveJob {
   /** Resolves with the job when it is on the plotter no more. */
   readonly ended: Promise<Job>;
   readonly isPaused: boolean;
-  /** Pauses the job while the sender does not answer; false: goes on, unless a user has paused it. */
+  /** Pauses the job while the sender does not answer; false, called whenever it answers: goes on, unless a user has paused it. */
   hold(isSilent: boolean): void;
   /** Nothing more is received. */
   senderLost(): void;
@@ -62,6 +62,8 @@ export class LiveJobs {
     plotterId: string,
     { name = "Live drawing", settings: given, liftAfterMs }: LiveBegin,
   ): Promise<LiveJob> {
+    // Shortly after the start, the program is still looking for boards.
+    await this.parts.plotters.get(plotterId)?.settled();
     this.plots.freePlotter({ plotterId });
     const { settings: whole, note } = this.settings.with(plotterId, given);
     const settings = asReceived(whole);
@@ -114,7 +116,7 @@ export class LiveJobs {
     if (isSilent && state === "plotting" && !this.silent.has(id)) {
       this.silent.add(id);
       this.plots.pause(id, SENDER_SILENT);
-    } else if (!isSilent && this.silent.delete(id) && state === "paused") this.plots.resume(id);
+    } else if (!isSilent && state === "paused" && this.silent.delete(id)) this.plots.resume(id);
   }
 
   private senderLost(id: string, strokes: LiveStrokes): void {

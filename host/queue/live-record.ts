@@ -13,7 +13,7 @@ import type { StrokeRecord } from "../plotter/live-strokes.js";
 import type { GrowingDrawing } from "../storage.js";
 
 /** Time between two writes. */
-const WRITE_MS = 500;
+const WRITE_MS = 100;
 const STROKE_END = '"/>\n';
 const FILE_END = "</g></svg>\n";
 

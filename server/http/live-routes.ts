@@ -21,9 +21,9 @@ import { settingsIn } from "./job-routes.js";
 import { bytesOf, type Responders } from "./operation-routes.js";
 
 /** Time between two pings, which browsers answer by themselves. */
-const PING_MS = 250;
+const PING_MS = 100;
 /** A sender that is silent for this time may be gone: the pen is lifted until it answers. */
-const SILENT_MS = 600;
+const SILENT_MS = 400;
 /** After this time it counts as lost. */
 const LOST_MS = 10_000;
 /** Messages of one sender in a second; one message may have many points. */
@@ -151,7 +151,7 @@ function followSocket(
   const timer = setInterval(() => {
     const nowMs = performance.now();
     // This process was held up: what has come meanwhile is still to be read.
-    if (nowMs - tickedMs > 2 * PING_MS) heardMs = nowMs;
+    if (nowMs - tickedMs > 3 * PING_MS) heardMs = nowMs;
     tickedMs = nowMs;
     socket.ping();
     if (nowMs - heardMs > LOST_MS) socket.terminate();

@@ -162,5 +162,5 @@ function readAgain(record: PlotRecord, source: LiveStrokes): void {
 const isServed = (url: string): PlotwrightError =>
   new PlotwrightError(
     "conflict",
-    `The server at ${url} has this plotter. Live drawing through a server is not possible yet: end the server, or draw on another plotter.`,
+    `The server at ${url} has this plotter. Send it the lines (curl -T - -X POST ${url}/api/v1/plotters/ID/live), end the server, or draw on another plotter.`,
   );
