@@ -11,7 +11,7 @@
  * as too little memory or too many open files, it is tried again when it is saved again or the server restarts. If its
  * settings are at fault, it is also tried again when a settings file changes.
  */
-import { stat } from "node:fs/promises";
+import { readdir, stat } from "node:fs/promises";
 import { basename, dirname, extname, join } from "node:path";
 import { watch, type FSWatcher } from "chokidar";
 import { PlotwrightError, type ErrorCode } from "../../../src/index.js";
@@ -90,12 +90,21 @@ export class WatchFolder {
     };
     this.watcher.on("unlink", removed).on("unlinkDir", removed);
     this.watcher.on("error", (error) => parts.log(`watched folder: ${words(error)}`));
+    this.watcher.once("ready", () => later(() => this.addUnnoticed(dir)));
   }
 
   async close(): Promise<void> {
     this.abort.abort();
     await this.watcher.close();
     await this.last;
+  }
+
+  /** chokidar reads the folder first and watches it then. Adds what was saved in between. */
+  private async addUnnoticed(dir: string): Promise<void> {
+    const entries = await readdir(dir, { withFileTypes: true });
+    if (this.abort.signal.aborted) return;
+    // It ignores those that it knows. A folder would be watched, too.
+    this.watcher.add(entries.filter((entry) => entry.isFile()).map(({ name }) => join(dir, name)));
   }
 
   private async takeRefused(): Promise<void> {

@@ -1,5 +1,5 @@
 import { execFileSync } from "node:child_process";
-import {
+import fs, {
   mkdirSync,
   readFileSync,
   renameSync,
@@ -8,6 +8,7 @@ import {
   truncateSync,
   writeFileSync,
 } from "node:fs";
+import { syncBuiltinESMExports } from "node:module";
 import { createServer } from "node:net";
 import { join } from "node:path";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
@@ -73,7 +74,40 @@ const names = (): string[] => queue.list().map(({ name }) => name);
 const queued = (...wanted: string[]): Promise<void> =>
   expect.poll(() => [...names()].sort()).toEqual([...wanted].sort());
 
+/** Runs `work` when a folder has been read and is not watched yet. */
+function justBeforeWatching(folder: string, work: () => void): void {
+  const { watch } = fs;
+  const replace = (by: typeof watch): void => {
+    fs.watch = by;
+    syncBuiltinESMExports();
+  };
+  const first = (...args: Parameters<typeof watch>): fs.FSWatcher => {
+    if (args[0] === folder) {
+      replace(watch);
+      work();
+    }
+    return watch(...args);
+  };
+  replace(first as typeof watch);
+}
+
 describe("the watched folder", () => {
+  it("queues a drawing that is saved while the folder is being opened, once", async () => {
+    put("early.svg");
+    mkdirSync(join(watched, "folder"));
+    put("folder/not-watched.svg");
+    let isSaved = false;
+    justBeforeWatching(watched, () => {
+      put("meanwhile.svg");
+      isSaved = true;
+    });
+    await open();
+    await queued("early.svg", "meanwhile.svg");
+    expect(isSaved).toBe(true);
+    put("late.svg");
+    await queued("early.svg", "meanwhile.svg", "late.svg");
+  });
+
   it("queues present and new files, once each, and nothing twice after a restart", async () => {
     put("a.svg");
     await open();
