@@ -60,5 +60,5 @@ export function checkNames(
 /** @throws PlotwrightError "bad-setting" with the setting, its value and what is allowed */
 export function refuseSetting(name: string, value: unknown, allowed: string): never {
   const is = typeof value === "number" ? String(value) : inWords(value);
-  throw new PlotwrightError("bad-setting", `${name} is ${is}: it must be ${allowed}.`);
+  throw new PlotwrightError("bad-setting", `The setting ${name} is ${is}: it must be ${allowed}.`);
 }

@@ -187,7 +187,7 @@ export function fileOf(
   if (!Array.isArray(drawing)) {
     throw new PlotwrightError(
       "bad-file",
-      "plot takes the text of a drawing, or lines: [[[x, y], [x, y], …], …].",
+      "plot: give the text of a drawing, or lines: [[[x, y], [x, y], …], …].",
     );
   }
   const strokes = (drawing as readonly Line[]).map((line, i) => checkedLine(line, i + 1));
@@ -216,7 +216,7 @@ export function penTarget(where: "up" | "down" | number): { up: boolean; heightP
   if (where >= 0 && where <= 100) return { up: false, heightPct: where };
   throw new PlotwrightError(
     "bad-setting",
-    `pen takes "up", "down" or a height from 0 to 100 %: it got ${String(where)}.`,
+    `pen: give "up", "down" or a height from 0 to 100 %, not ${String(where)}.`,
   );
 }
 
@@ -224,6 +224,6 @@ export function positionOf(xMm: number, yMm: number): { xMm: number; yMm: number
   if (Number.isFinite(xMm) && Number.isFinite(yMm)) return { xMm, yMm };
   throw new PlotwrightError(
     "bad-setting",
-    `moveTo takes two numbers, in mm from home: it got ${String(xMm)} and ${String(yMm)}.`,
+    `moveTo: give two numbers, in mm from home, not ${String(xMm)} and ${String(yMm)}.`,
   );
 }

@@ -435,7 +435,8 @@ export class RunningPlots {
 
   /** The job's plotter; throws unless it is connected and has no other job. */
   freePlotter({ id, plotterId }: Pick<Job, "plotterId"> & Partial<Pick<Job, "id">>): PlotterPort {
-    if (this.isClosing) throw new PlotwrightError("conflict", "plotwright is stopping.");
+    if (this.isClosing)
+      throw new PlotwrightError("conflict", "This plotwright is stopping. Start the job when it runs again.");
     const plotter = findPlotter(this.parts.plotters, plotterId);
     const other = this.running.get(plotter.id);
     if (other !== undefined && other.job.id !== id) {

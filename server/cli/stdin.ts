@@ -13,6 +13,6 @@ export function readStdin(use: StdinUse): Uint8Array {
   if (stored.use === use) return stored.bytes;
   throw new PlotwrightError(
     "bad-setting",
-    `stdin can't be both ${stored.use} and ${use}: give one of them a file.`,
+    `Standard input can't be both ${stored.use} and ${use}: give one of them a file.`,
   );
 }

@@ -40,25 +40,25 @@ export function checkSettings(
   machine: MachineProfile | undefined,
 ): void {
   checkSettingNames(motion, pen);
-  checkChoice("motion mode", MOTION_MODES, motion.mode);
+  checkChoice("Motion mode", MOTION_MODES, motion.mode);
   checkShaper(motion, machine);
-  checkNumbers("draw", DRAW_TABLE, motion.draw);
-  checkNumbers("travel", TRAVEL_TABLE, motion.travel);
+  checkNumbers("Draw", DRAW_TABLE, motion.draw);
+  checkNumbers("Travel", TRAVEL_TABLE, motion.travel);
   for (const [layer, own] of Object.entries(motion.layers ?? {})) {
-    checkOptional(`layer "${layer}" draw`, SPEED_FACTOR, own.speedFactor);
-    checkNumbers(`layer "${layer}" draw`, DRAW_TABLE, drawLimitsOf(motion, layer));
+    checkOptional(`Layer "${layer}" draw`, SPEED_FACTOR, own.speedFactor);
+    checkNumbers(`Layer "${layer}" draw`, DRAW_TABLE, drawLimitsOf(motion, layer));
   }
-  if (motion.fit) checkNumbers("fit", FIT_TABLE, motion.fit);
-  if (motion.ease) checkNumbers("slow-in", EASE_TABLE, motion.ease);
-  checkOptional("the", MOTOR_ACCEL, motion.motorAccelStepsPerS2);
+  if (motion.fit) checkNumbers("Fit", FIT_TABLE, motion.fit);
+  if (motion.ease) checkNumbers("Slow-in", EASE_TABLE, motion.ease);
+  checkOptional("The", MOTOR_ACCEL, motion.motorAccelStepsPerS2);
   for (const key of Object.keys(AXIS_TABLE) as (keyof typeof AXIS_TABLE)[]) {
-    checkOptional("the", AXIS_TABLE[key], motion[key]);
+    checkOptional("The", AXIS_TABLE[key], motion[key]);
   }
-  if (machine?.penServo) checkNumbers(`machine "${machine.name}"`, PEN_SERVO_TABLE, machine.penServo);
-  checkPen("pen", pen);
+  if (machine?.penServo) checkNumbers(`Machine "${machine.name}"`, PEN_SERVO_TABLE, machine.penServo);
+  checkPen("Pen", pen);
   for (const [layer, { beforeMs }] of Object.entries(pen.layers ?? {})) {
-    checkPen(`layer "${layer}" pen`, penOfLayer(pen, layer));
-    checkOptional(`layer "${layer}" pen`, LAYER_WAIT, beforeMs);
+    checkPen(`Layer "${layer}" pen`, penOfLayer(pen, layer));
+    checkOptional(`Layer "${layer}" pen`, LAYER_WAIT, beforeMs);
   }
 }
 
@@ -80,20 +80,20 @@ export function checkSettingNames(motion: MotionSettings, pen: PenSettings): voi
 }
 
 function checkShaper({ shaper = "none", mode }: MotionSettings, machine: MachineProfile | undefined): void {
-  checkChoice("shaper", SHAPERS, shaper);
+  checkChoice("Shaper", SHAPERS, shaper);
   if (shaper === "none") return;
   if (!machine?.springs) {
     throw bad(
-      `shaper ${shaper} needs the measured swing of the machine, but ` +
+      `Shaper ${shaper} needs the measured swing of the machine, but ` +
         `${machine ? `machine "${machine.name}" was not measured` : "no machine is given"}: ` +
-        "plot the ringing sheet, or choose shaper none",
+        "plot the ringing sheet, or choose shaper none.",
     );
   }
-  checkNumbers(`machine "${machine.name}"`, SPRINGS_TABLE, machine.springs);
+  checkNumbers(`Machine "${machine.name}"`, SPRINGS_TABLE, machine.springs);
   if (mode === "scurve") {
     throw bad(
-      `shaper ${shaper} cannot be combined with mode scurve, since both filter the motion: ` +
-        "choose mode blend, or shaper none",
+      `Shaper ${shaper} cannot be combined with mode scurve, since both filter the motion: ` +
+        "choose mode blend, or shaper none.",
     );
   }
 }
@@ -104,7 +104,7 @@ export function checkPen(name: string, pen: PenSettings): void {
   if (pen.upPct <= pen.downPct) {
     throw bad(
       `${name} up height ${pen.upPct} % is not above its down height ${pen.downPct} %: ` +
-        "the pen would never leave the paper; raise the up height or lower the down height",
+        "the pen would never leave the paper; raise the up height or lower the down height.",
     );
   }
   checkOptional(name, LIFT_RATE, pen.liftPctPerS);
@@ -116,7 +116,7 @@ export function checkPen(name: string, pen: PenSettings): void {
 
 function checkChoice<T extends string>(name: string, choices: readonly T[], value: T): void {
   if (choices.includes(value)) return;
-  throw bad(`${name} is "${String(value)}": choose one of ${choices.join(", ")}`);
+  throw bad(`${name} is "${String(value)}": choose one of ${choices.join(", ")}.`);
 }
 
 function checkNumbers<Table extends Readonly<Record<string, NumberSetting>>>(
@@ -137,7 +137,7 @@ function checkNumber(name: string, row: NumberSetting, value: number): void {
   if (isAllowed(range, value)) return;
   const shown =
     typeof value === "number" ? `${value} ${row.unit}`.trim() : (JSON.stringify(value) ?? "missing");
-  throw bad(`${name} ${row.label.toLowerCase()} is ${shown}: it must be ${rangeInWords(range)}`);
+  throw bad(`${name} ${row.label.toLowerCase()} is ${shown}: it must be ${rangeInWords(range)}.`);
 }
 
 const bad = (message: string): PlotwrightError => new PlotwrightError("bad-setting", message);

@@ -132,7 +132,7 @@ export function plan(
   if (options.liftFirst) builder.liftFirst();
   if (options.penDown === true && from.stroke < strokeCount(strokes)) builder.beginDown(from.stroke);
   for (let stroke = from.stroke; stroke < strokeCount(strokes); stroke++) {
-    if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "planning was cancelled");
+    if (options.cancel?.aborted) throw new PlotwrightError("cancelled", "Planning was cancelled.");
     builder.draw(stroke, stroke === from.stroke ? from.alongMm : 0, penOffsetMm);
   }
   if (options.liftAtEnd === false) return builder.finish();

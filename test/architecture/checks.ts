@@ -1,9 +1,23 @@
 /** The architecture's checks as functions of sources, so that tests can run them on bad ones too. */
+import { readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
 import ts from "typescript-6";
 
+export const ROOT = path.join(import.meta.dirname, "..", "..");
+
 /** Texts by their paths from the project's root, with forward slashes. */
 export type Sources = Readonly<Record<string, string>>;
+
+export function sourceFiles(folder: string): string[] {
+  return readdirSync(path.join(ROOT, folder), { recursive: true, encoding: "utf8" })
+    .map((file) => path.posix.join(folder, file.split(path.sep).join("/")))
+    .filter((file) => /\.tsx?$/.test(file) && !file.endsWith(".d.ts"));
+}
+
+export const sourcesIn = (...folders: string[]): Sources =>
+  Object.fromEntries(
+    folders.flatMap(sourceFiles).map((file) => [file, readFileSync(path.join(ROOT, file), "utf8")]),
+  );
 
 export interface Import {
   readonly from: string;

@@ -1,5 +1,5 @@
 /** The import rule of ARCHITECTURE.md, checked on the real imports. */
-import { readFileSync, readdirSync } from "node:fs";
+import { readdirSync } from "node:fs";
 import path from "node:path";
 import { describe, expect, it } from "vitest";
 import {
@@ -15,14 +15,14 @@ import {
   literalsOf,
   localTypesNamedLikeExported,
   plannedElsewhere,
+  ROOT,
+  sourceFiles,
+  sourcesIn,
   staticPluginImports,
   typesExportedTwice,
   write,
   type Import,
-  type Sources,
 } from "./checks.js";
-
-const ROOT = path.join(import.meta.dirname, "..", "..");
 
 /** Files that all folders of src may import. */
 const BASE = ["units", "errors", "check-arguments", "get-or-add", "plain-text"];
@@ -68,16 +68,6 @@ const SERVER_LAYERS = [
   "server/composition",
   "server/cli",
 ];
-
-function sourceFiles(folder: string): string[] {
-  return readdirSync(path.join(ROOT, folder), { recursive: true, encoding: "utf8" })
-    .map((file) => path.posix.join(folder, file.split(path.sep).join("/")))
-    .filter((file) => /\.tsx?$/.test(file) && !file.endsWith(".d.ts"));
-}
-
-const read = (file: string): string => readFileSync(path.join(ROOT, file), "utf8");
-const sourcesIn = (...folders: string[]): Sources =>
-  Object.fromEntries(folders.flatMap(sourceFiles).map((file) => [file, read(file)]));
 
 const SOURCES = sourcesIn("src", "host", "server", "web");
 const importsIn = (folder: string): Import[] =>
@@ -250,7 +240,7 @@ describe("the folders of web", () => {
         !["web/vite.config.ts", "web/serial/open-plotter.ts"].includes(file),
     );
     const wrong = others.filter((file) => {
-      const text = read(file);
+      const text = SOURCES[file];
       return (
         /\b(fetch\(|EventSource|XMLHttpRequest|sendBeacon|WebSocket)/.test(text) ||
         literalsOf(file, text).some((literal) => literal.includes("/api/"))

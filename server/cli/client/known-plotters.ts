@@ -147,7 +147,7 @@ export async function withPortByName<T extends OptionValues>(options: T): Promis
   const known = plotters.map(({ name }) => name).join(", ");
   throw new PlotwrightError(
     "no-board",
-    `--device ${device}: there is no such serial port, and no plotter with that name. ${known === "" ? "" : `Plotters: ${known}. `}To list the boards that are plugged in: plotwright devices`,
+    `--device ${device}: there is no such serial port, and no plotter with that name. ${known === "" ? "" : `Plotters: ${known}. `}"plotwright devices" lists the boards that are plugged in.`,
   );
 }
 

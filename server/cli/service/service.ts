@@ -88,7 +88,7 @@ export async function installService(
   if (host.script.includes("/_npx/")) {
     throw new PlotwrightError(
       "bad-setting",
-      "npx keeps programs only for a while. Install plotwright first: npm install -g plotwright.",
+      "With npx, a program is kept only for a while. Install plotwright first: npm install -g plotwright.",
     );
   }
   await mustBeFree(manager, server, host);

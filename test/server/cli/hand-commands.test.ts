@@ -74,7 +74,7 @@ describe("without a plotter", () => {
       const { code, err } = await cli(...args, "--device", "Atelier", "--data", data);
       expect([code, err]).toEqual([
         4,
-        "plotwright: --device Atelier: there is no such serial port, and no plotter with that name. Plotters: main, Studio, Far. To list the boards that are plugged in: plotwright devices\n",
+        'plotwright: --device Atelier: there is no such serial port, and no plotter with that name. Plotters: main, Studio, Far. "plotwright devices" lists the boards that are plugged in.\n',
       ]);
     }
   });

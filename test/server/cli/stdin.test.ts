@@ -21,7 +21,7 @@ describe("stdin", () => {
     expect(both).toEqual({
       code: 2,
       out: "",
-      err: "plotwright: stdin can't be both the drawing and --config: give one of them a file.\n",
+      err: "plotwright: Standard input can't be both the drawing and --config: give one of them a file.\n",
     });
   });
 });

@@ -106,7 +106,7 @@ const MISTAKES: readonly (readonly [
     "a pen's height that is no number",
     () => call.plan(strokes, {}, { upPct: "70" }),
     PlotwrightError,
-    ["pen height up"],
+    ["Pen height up"],
   ],
   [
     "one line for lines",
@@ -145,7 +145,7 @@ const MISTAKES: readonly (readonly [
     "half of a pen for a board",
     () => call.compile(trajectory, { ...board, pen: { upPct: 60 } }),
     PlotwrightError,
-    ["pen height down is missing"],
+    ["Pen height down is missing"],
   ],
   ["strokes for motion", () => call.compile(strokes, board), TypeError, ["what plan returns"]],
   [

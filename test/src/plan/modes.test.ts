@@ -218,19 +218,24 @@ describe("settings beyond speed and acceleration", () => {
 
   it("that contradict each other are refused with a clear message", () => {
     const wrong: [Partial<MotionSettings>, Partial<PenSettings>, RegExp][] = [
-      [{ fit: { toleranceMm: 0, floorMs: 15 } }, {}, /fit tolerance is 0/],
-      [{ ease: { lengthMm: 5, speedMmPerS: 0 } }, {}, /slow-in speed/],
-      [{ layers: { red: { accelMmPerS2: -1 } } }, {}, /layer "red" draw acceleration/],
-      [{ motorAccelStepsPerS2: Number.NaN }, {}, /motor acceleration/],
-      [{}, { dropPctPerS: 0 }, /pen lowering speed is 0/],
-      [{ layers: { red: { speedFactor: 3 } } }, {}, /share of the speed is 3: it must be 0.01 to 1/],
-      [{}, { contactPct: 120 }, /tip touches at is 120/],
-      [{}, { overlap: "often" as never }, /overlap is "often": choose one of off, safe, fast/],
-      [{}, { layers: { red: { downPct: 70 } } }, /layer "red" pen up height/],
+      [{ fit: { toleranceMm: 0, floorMs: 15 } }, {}, /^Fit tolerance is 0/],
+      [{ ease: { lengthMm: 5, speedMmPerS: 0 } }, {}, /^Slow-in speed/],
+      [{ layers: { red: { accelMmPerS2: -1 } } }, {}, /^Layer "red" draw acceleration/],
+      [{ motorAccelStepsPerS2: Number.NaN }, {}, /^The motor acceleration/],
+      [{}, { dropPctPerS: 0 }, /^Pen lowering speed is 0/],
+      [
+        { layers: { red: { speedFactor: 3 } } },
+        {},
+        /^Layer "red" draw share of the speed is 3: it must be 0.01 to 1/,
+      ],
+      [{}, { contactPct: 120 }, /^Pen tip touches at is 120/],
+      [{}, { overlap: "often" as never }, /^Pen overlap is "often": choose one of off, safe, fast/],
+      [{}, { layers: { red: { downPct: 70 } } }, /^Layer "red" pen up height/],
     ];
     for (const [motion, pen, message] of wrong) {
       const run = () => plan(strokeSetOf([square]), { ...base, ...motion }, { ...DEFAULT_PEN, ...pen });
       expect(run).toThrow(message);
+      expect(run).toThrow(/\.$/);
     }
   });
 });

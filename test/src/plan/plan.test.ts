@@ -189,11 +189,11 @@ describe("corner speed in junction mode", () => {
 describe("invalid input to the planner", () => {
   it("is refused with the setting's name and advice", () => {
     const cases: [MotionSettings, typeof DEFAULT_PEN, RegExp][] = [
-      [{ ...motion, draw: { ...motion.draw, speedMmPerS: 0 } }, DEFAULT_PEN, /draw speed is 0/],
+      [{ ...motion, draw: { ...motion.draw, speedMmPerS: 0 } }, DEFAULT_PEN, /^Draw speed is 0/],
       [
         { ...motion, travel: { ...motion.travel, accelMmPerS2: Number.NaN } },
         DEFAULT_PEN,
-        /travel acceleration/,
+        /^Travel acceleration/,
       ],
       [{ ...motion, draw: { ...motion.draw, cornerMm: -1 } }, DEFAULT_PEN, /corner/],
       [motion, { ...DEFAULT_PEN, upPct: 20, downPct: 40 }, /raise the up height or lower the down height/],
@@ -202,6 +202,7 @@ describe("invalid input to the planner", () => {
     for (const [m, pen, message] of cases) {
       expect(() => plan(strokeSetOf([square]), m, pen)).toThrow(message);
       expect(() => plan(strokeSetOf([square]), m, pen)).toThrow(PlotwrightError);
+      expect(() => plan(strokeSetOf([square]), m, pen)).toThrow(/^[A-Z].*\.$/);
     }
   });
 

@@ -79,7 +79,7 @@ export function compile(trajectory: Trajectory, options: CompileOptions): Comman
   );
   const { machine, pen } = options;
   checkEbbProfile(machine);
-  checkPen("pen", pen);
+  checkPen("Pen", pen);
   return new Compiler(trajectory, options).run();
 }
 
