@@ -31,15 +31,10 @@ export const Library = () => {
     setSearch("");
   };
   const path = useRef<HTMLElement>(null);
-  /** Where the focus goes when the tile that had it is gone. */
-  const focusPath = (): void => [...(path.current?.querySelectorAll("button") ?? [])].at(-1)?.focus();
   useEffect(() => {
-    if (folder !== "") focusPath();
+    // The tile that had the focus is gone.
+    if (folder !== "") [...(path.current?.querySelectorAll("button") ?? [])].at(-1)?.focus();
   }, [folder]);
-  const afterRemoval = (): void => {
-    reload();
-    focusPath();
-  };
   return (
     <Sheet title={drawingText.library} className="dialog-wide">
       <CloseWhenOpened />
@@ -51,7 +46,7 @@ export const Library = () => {
       {list === null ? (
         <div className="sheet-grid" aria-busy="true" />
       ) : (
-        <Entries list={list} search={search.trim()} onGo={goTo} onRemoved={afterRemoval} />
+        <Entries list={list} search={search.trim()} onGo={goTo} onRemoved={reload} />
       )}
     </Sheet>
   );

@@ -16,7 +16,11 @@ export function goToField({ store, actions }: Page, field: Field): void {
   actions.showPanel(name);
   actions.changeView({ openGroups: [...openGroups, ...groups.filter((id) => !openGroups.includes(id))] });
   const endMs = performance.now() + WAIT_MS;
+  const before = document.activeElement;
   const look = (): void => {
+    const now = document.activeElement;
+    // Meanwhile the user has gone elsewhere. With the panel before, its focus is gone.
+    if (now !== before && now !== document.body) return;
     const control = controlAt(place);
     if (control) show(control);
     else if (performance.now() < endMs) requestAnimationFrame(look);

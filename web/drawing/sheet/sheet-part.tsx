@@ -1,5 +1,5 @@
 import "./sheet.css";
-import { useState } from "react";
+import { useRef, useState } from "react";
 import { frameOf, type GridWish } from "../../scene/arrange.js";
 import { inGrid, piecesOnPaper } from "../../state/sheet-edits.js";
 import type { PlacedPiece } from "../../state/sheet-settings.js";
@@ -37,11 +37,19 @@ const Pieces = () => {
   const { selectPieces, duplicatePieces, removePieces } = useActions();
   const selected = pieces.filter(({ id }) => selectedIds.includes(id));
   const ids = selected.map(({ id }) => id);
+  const list = useRef<HTMLUListElement>(null);
+  const remove = (): void => {
+    // The button is off once nothing is selected, and would lose the focus: one of the others gets it.
+    const first = pieces.findIndex(({ id }) => ids.includes(id));
+    const next = pieces.findIndex(({ id }, index) => index > first && !ids.includes(id));
+    list.current?.querySelectorAll("input")[next >= 0 ? next : first - 1]?.focus();
+    void removePieces();
+  };
   const toggle = (id: string): void =>
     selectPieces(ids.includes(id) ? ids.filter((other) => other !== id) : [...ids, id]);
   return (
     <section className="sheet-part" aria-label={words.title}>
-      <ul className="sheet-pieces" aria-label={words.list}>
+      <ul className="sheet-pieces" aria-label={words.list} ref={list}>
         {pieces.map((piece, index) => {
           const { widthMm, heightMm } = frameOf(piece);
           return (
@@ -65,11 +73,7 @@ const Pieces = () => {
         <Button kind="small" disabled={ids.length === 0} onClick={() => void duplicatePieces()}>
           {words.duplicate}
         </Button>
-        <Button
-          kind="small"
-          disabled={ids.length === 0 || ids.length === pieces.length}
-          onClick={() => void removePieces()}
-        >
+        <Button kind="small" disabled={ids.length === 0 || ids.length === pieces.length} onClick={remove}>
           {words.remove}
         </Button>
       </div>

@@ -155,7 +155,11 @@ const Suggestions = ({ planned }: { planned: Planned }) => {
           </Button>
         </li>
       ))}
-      {!isDone && <li role="status">{words.searching}</li>}
+      {!isDone && (
+        <li>
+          <span role="status">{words.searching}</span>
+        </li>
+      )}
       {isDone && offered.length === 0 && <li>{words.nothing}</li>}
     </ul>
   );

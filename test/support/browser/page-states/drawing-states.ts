@@ -1,7 +1,7 @@
 /** A drawing on the paper, and what is set for it. */
 import type { Page } from "playwright-core";
 import { ruledSheet } from "../../drawings/drawings.js";
-import { dropFile, openGroup, openPanel, plotBar, waitForSamples } from "../page-actions.js";
+import { dropFile, openGroup, openPanel, plotBar, waitForPicture, waitForSamples } from "../page-actions.js";
 import { type PageState, lay, sampleText } from "./page-state.js";
 
 const WITH_WARNINGS = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="120mm" viewBox="0 0 200 120">
@@ -10,6 +10,10 @@ const WITH_WARNINGS = `<svg xmlns="http://www.w3.org/2000/svg" width="200mm" hei
   <circle cx="60" cy="60" r="40" fill="none" stroke="#c00"/></svg>`;
 
 const STEPS = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120"><path d="M10 10v25h25v25h25v25h25" fill="none" stroke="#000"/></svg>`;
+
+const WIDE = `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210"><path d="M10 20H310M50 50H100" fill="none" stroke="#000"/></svg>`;
+
+const FILLED = `<svg xmlns="http://www.w3.org/2000/svg" width="120mm" height="120mm" viewBox="0 0 120 120"><path d="M10 10h60v60h-60z" fill="#c00"/><circle cx="70" cy="70" r="30" fill="#00c"/></svg>`;
 
 const TALL = `<svg xmlns="http://www.w3.org/2000/svg" width="140mm" height="280mm" viewBox="0 0 100 200"><path d="M0 0L100 200M100 0L0 200" fill="none" stroke="#000"/></svg>`;
 
@@ -122,4 +126,59 @@ export const DRAWING_STATES: readonly PageState[] = [
       if ((await place.getAttribute("aria-pressed")) === "false") await place.click();
     },
   },
+  {
+    name: "48-off-the-paper",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await lay(page, "wide", WIDE);
+      await page.getByRole("group", { name: "Drawing off the paper" }).waitFor();
+    },
+  },
+  {
+    name: "49-filled-shapes",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await openPanel(page, "Drawing");
+      await lay(page, "filled", FILLED);
+      await page.getByRole("group", { name: "Filled shapes" }).waitFor();
+    },
+  },
+  {
+    name: "50-several-drawings",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await lay(page, "steps", STEPS);
+      await openPanel(page, "Drawing");
+      const grid = page.getByRole("button", { name: "Copies in a grid" });
+      if ((await grid.getAttribute("aria-expanded")) === "false") await grid.click();
+      await page.getByRole("button", { name: /^Make 2 × 3/ }).click();
+      const list = page.getByRole("list", { name: "Drawings on the sheet" });
+      await list.getByRole("listitem").nth(5).waitFor();
+      // One is selected: its place and size are fields.
+      for (const box of (await list.getByRole("checkbox").all()).slice(1)) await box.uncheck();
+      await page.getByLabel("From the left", { exact: true }).waitFor();
+    },
+  },
+  {
+    name: "51-over-several-sheets",
+    isPassing: true,
+    reach: async ({ page }) => {
+      await lay(page, "hills", sampleText("three-colour-hills"));
+      await openGroup(page, "Paper", "Over several sheets");
+      for (const label of ["Sheets across", "Sheets down"]) await page.getByLabel(label).fill("2");
+      await page.keyboard.press("Enter");
+      await page.getByText("4 sheets, together", { exact: false }).waitFor();
+    },
+  },
+  ...(["Speed", "Time", "Order", "Ink"] as const).map((view, index): PageState => ({
+    name: `${52 + index}-view-${view.toLowerCase()}`,
+    isPassing: true,
+    reach: async ({ page }) => {
+      await lay(page, `hills ${view}`, sampleText("three-colour-hills"));
+      const menu = page.getByRole("combobox", { name: "Colour by" });
+      if (await menu.isVisible()) await menu.selectOption(view);
+      else await page.getByRole("radio", { name: view, exact: true }).check();
+      await waitForPicture(page);
+    },
+  })),
 ];

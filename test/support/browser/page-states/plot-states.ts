@@ -163,4 +163,17 @@ export const PLOT_STATES: readonly PageState[] = [
       await library.getByRole("alertdialog").waitFor();
     },
   },
+  {
+    name: "56-timelapse",
+    isOnlyPlace: true,
+    reach: async ({ page, server }) => {
+      const api = `${server.url}/api/v1`;
+      const state = (await (await page.request.get(`${api}/state`)).json()) as { plotters: { id: string }[] };
+      // Any picture will do.
+      const camera = { url: `${server.url}/icon-192.png`, everyS: 1 };
+      await page.request.put(`${api}/plotters/${state.plotters[0].id}/camera`, { data: camera });
+      await start(page, "few lines", ruledSheet(3));
+      await page.getByRole("region", { name: "Timelapse" }).getByRole("img").waitFor();
+    },
+  },
 ];
