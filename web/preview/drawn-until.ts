@@ -21,7 +21,10 @@ export const jobUntilS = (job: Job, trajectory: Trajectory, live: PageState["liv
     const times = timesOf.get(trajectory) ?? new PositionTimes(trajectory);
     timesOf.set(trajectory, times);
     const atS = times.timeOf({ stroke: job.place.strokeIndex, alongMm: job.place.alongMm });
-    if (atS !== null) return atS;
+    // A plot that lost its board still has the place where it began or was resumed.
+    if (atS !== null) {
+      return job.state === "interrupted" ? Math.max(atS, job.progress * trajectory.totalS) : atS;
+    }
   }
   // It is moving, or the page has not received a report since it was opened.
   return live?.jobId === job.id ? live.planS : job.progress * trajectory.totalS;

@@ -9,6 +9,7 @@ import { expectedSOf } from "../queue/queue-time.js";
 import { jobText, queueText } from "../queue/text.js";
 import { ACTIVE_STATES, penWait } from "../state/store.js";
 import { useIsConnected, usePageState } from "../state/use-store.js";
+import { Icon } from "../ui/icon.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
 import { layerNow } from "./watch-look.js";
@@ -106,9 +107,15 @@ const Message = ({ job, isWaiting }: { job: Job; isWaiting: boolean }) => {
   const isBroken = job.state === "interrupted";
   const isInCard = usePageState((state) => hasHoldCard(state, job));
   if (isInCard || isWaiting || (job.message === null && !isBroken)) return null;
-  return (
-    <p className={job.state === "failed" ? "note note-error" : "note"}>
-      {job.message} {isBroken && jobText.recoverHint}
-    </p>
-  );
+  if (isBroken) {
+    return (
+      <div className="hold-card">
+        <Icon name="warning" />
+        <p>
+          {job.message} {jobText.recoverHint}
+        </p>
+      </div>
+    );
+  }
+  return <p className={job.state === "failed" ? "note note-error" : "note"}>{job.message}</p>;
 };

@@ -44,6 +44,12 @@ describe("how much of the drawing on the paper is drawn", () => {
     expect(second).toBeLessThan(trajectory.totalS);
   });
 
+  it("is the job's progress if it lost its board and its place is still the beginning", () => {
+    const place = { strokeIndex: 0, alongMm: 0 };
+    const job = makeJob("a", { state: "interrupted", progress: 0.25, place });
+    expect(drawnUntilS(pageWith(job))).toBeCloseTo(halfS / 2, 9);
+  });
+
   it("is the job's place during a pen change, also when the job was opened again with no report yet", () => {
     const place = { strokeIndex: 1, alongMm: 0 };
     const wait = { kind: "pen" as const, layerName: "Red", penName: null, color: null };
