@@ -20,7 +20,10 @@ export interface DeviceOptions {
 }
 
 /** For the server. */
-export const addPort = (command: Command, names = "serial port of the board, or virtual"): Command =>
+export const addPort = (
+  command: Command,
+  names = "serial port of the board, tcp://HOST:PORT, or virtual",
+): Command =>
   command
     .option("--device <path>", `${names} (default: the first board found)`)
     .addOption(
@@ -32,7 +35,7 @@ export const addPort = (command: Command, names = "serial port of the board, or 
 
 /** For a command that works through a running server if that has the plotter. */
 export const addDevice = (command: Command): Command =>
-  addPort(command, "serial port, name of a plotter or board, or virtual").option(
+  addPort(command, "serial port, tcp://HOST:PORT, name of a plotter or board, or virtual").option(
     "--direct",
     "use the port itself, although a server runs",
   );

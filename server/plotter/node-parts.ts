@@ -1,10 +1,18 @@
-/** The clock and the serial ports of this computer, for the host. */
+/** The clock of this computer, and its serial ports and network, for the host. */
 import type { ClockAndPorts } from "../../host/handle/own-plotter.js";
 import { findBoards } from "../serial/find-boards.js";
 import { nodeClock } from "../serial/node-clock.js";
 import { openSerial } from "../serial/serial-transport.js";
+import { openTcp, tcpAddress } from "../serial/tcp-transport.js";
+import type { Transport } from "../../src/index.js";
 
 export const NODE_PARTS: ClockAndPorts = {
   clock: nodeClock,
-  devices: { find: findBoards, open: openSerial },
+  devices: { find: findBoards, open: openDevice },
 };
+
+/** A serial port by its path, or a machine on the network by its address. */
+async function openDevice(device: string): Promise<Transport> {
+  const address = tcpAddress(device);
+  return address ? openTcp(device, address) : openSerial(device);
+}

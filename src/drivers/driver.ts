@@ -30,6 +30,8 @@ export interface UsbId {
 export interface ControllerDescription {
   /** Its fields in a machine's profile. */
   readonly fields: ControllerFields;
+  /** Optional fields that exclude each other, for forms. Left out: none do. */
+  readonly choice?: ControllerChoice;
   /** Finds a contradiction between valid fields, and the field to change. Left out: no fields can contradict. */
   readonly contradictionOf?: (controller: Controller) => { field: string; message: string } | null;
   /** Whether a machine finds home by itself. Left out: none does. */
@@ -41,6 +43,16 @@ export interface ControllerDescription {
    * Labels of the settings that do not affect its plots, by path, such as "motion.layers.*.cornerMm". Left out: none.
    */
   readonly unusedSettings?: Readonly<Record<string, string>>;
+}
+
+/** One of several groups of fields that a profile has, such as the ways to lift a pen. */
+export interface ControllerChoice {
+  readonly label: string;
+  /** `fields`: with the values to begin with. The first one tells which option a profile has. */
+  readonly options: readonly {
+    readonly label: string;
+    readonly fields: Readonly<Record<string, number | string>>;
+  }[];
 }
 
 export interface Driver {

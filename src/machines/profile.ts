@@ -45,7 +45,7 @@ export type ControllerFields = Readonly<Record<string, ControllerField>>;
 export type ControllerField = { readonly isOptional?: true } & (
   | Setting
   | { readonly kind: "one-of"; readonly values: readonly (string | number)[] }
-  | { readonly kind: "text"; readonly maxLength: number }
+  | { readonly kind: "text"; readonly label: string; readonly maxLength: number }
   /** An object of fields. */
   | { readonly kind: "group"; readonly fields: ControllerFields }
 );

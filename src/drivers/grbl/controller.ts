@@ -3,7 +3,7 @@ import type { ControllerDescription, Driver } from "../driver.js";
 import { GrblMachine } from "./machine/grbl-machine.js";
 import { GrblSession } from "./machine/session.js";
 import { findsHome, GRBL_FIELDS } from "./model/grbl-controller.js";
-import { liftFault } from "./model/pen-lift.js";
+import { LIFT_CHOICE, liftFault } from "./model/pen-lift.js";
 import { isOwnVersion } from "./protocol.js";
 import { UNUSED_SETTINGS } from "./unused-settings.js";
 import { bench } from "./virtual/bench.js";
@@ -11,6 +11,7 @@ import { VirtualGrbl } from "./virtual/virtual-grbl.js";
 
 export const description: ControllerDescription = {
   fields: GRBL_FIELDS,
+  choice: LIFT_CHOICE,
   contradictionOf: liftFault,
   findsHome,
   // Many other devices have the same USB chips as these boards.

@@ -1,8 +1,9 @@
 /**
  * Makes a job for a Grbl controller from strokes: a model of the motion that Grbl's planner produces, and the lines to send.
  */
-import type { StrokeSet } from "../../drawing/stroke-set.js";
+import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../machines/profile.js";
+import { penOfLayer } from "../../plan/pen/pen-times.js";
 import { penMovesOf } from "../../plan/pen/pen-moves.js";
 import { plan } from "../../plan/plan.js";
 import { runEndS, type Trajectory } from "../../plan/trajectory.js";
@@ -16,6 +17,8 @@ import { QUEUE_MOVES, type Axes, type GrblAxisLimits } from "./model/planner.js"
 /** Lines of G-code. The reply to the last one comes when everything is done. */
 export interface GrblCommands extends MachineCommands {
   readonly lines: readonly string[];
+  /** The layer that begins at a line, by the line's index. */
+  readonly layerAt: ReadonlyMap<number, StrokeLayer>;
 }
 
 /** Narrows a job's commands to the type of this driver. Throws TypeError for those of another driver. */
@@ -68,13 +71,41 @@ export function planGrblJob(
   });
   let written: GrblCommands | null = null;
   const commands = (): GrblCommands =>
-    (written ??= writeCommands(trajectory, runs.runs, lift, zero, {
+    (written ??= writeCommands(strokes, trajectory, runs.runs, lift, zero, {
       heightPct: pen.upPct,
       isUp: !options.liftFirst,
       downPct: pen.downPct,
     }));
-  return { trajectory, commands, lines: () => [MODES, ...commands().lines] };
+  return { trajectory, commands, lines: () => fileLines(machine, trajectory, pen, commands()) };
 }
+
+/** For any sender: with comments, which Grbl skips, at the beginning and at each layer. */
+function fileLines(
+  machine: MachineProfile,
+  { totalS }: Trajectory,
+  pen: PenSettings,
+  { lines, layerAt }: GrblCommands,
+): string[] {
+  const about = [
+    comment(`For ${machine.name}: about ${Math.ceil(totalS / 60)} min. Begins with the pen up, at home.`),
+    MODES,
+  ];
+  return about.concat(
+    lines.flatMap((line, i) => {
+      const layer = layerAt.get(i);
+      if (!layer) return [line];
+      const { upPct, downPct } = penOfLayer(pen, settingsIdOf(layer));
+      const color = layer.color === null ? "" : `, ${layer.color}`;
+      return [comment(`Layer ${layer.name}${color}: pen down at ${downPct} %, up at ${upPct} %`), line];
+    }),
+  );
+}
+
+/**
+ * Some characters act at once even in a comment: ? ! ~ and those beyond ASCII. A line has at most 79 characters on some
+ * Grbls.
+ */
+const comment = (text: string): string => `; ${text.replace(/[?!~();]|[^\x20-\x7e]/g, "_").slice(0, 77)}`;
 
 /** How long the carriage stands for a pen move; from a height to the same one it only waits. */
 const penS = (lift: PenLift, fromPct: number, toPct: number, waitS: number): number =>
@@ -97,6 +128,7 @@ interface PenAtStart {
 }
 
 function writeCommands(
+  strokes: StrokeSet,
   trajectory: Trajectory,
   runs: readonly (readonly SentMove[])[],
   lift: PenLift,
@@ -110,6 +142,8 @@ function writeCommands(
     planS.push(atS);
   };
   const penMoves = penMovesOf(trajectory);
+  const layerAt = new Map<number, StrokeLayer>();
+  let layer = -1;
   let { isUp } = start;
   let pct = isUp ? start.heightPct : start.downPct;
   let next = 0;
@@ -121,6 +155,12 @@ function writeCommands(
       if (isMove) for (const line of lift.lines(up, heightPct)) add(line, startS);
       add(waitLine(waitS - moveS), startS + moveS);
       [isUp, pct] = [up, heightPct];
+    }
+    // The travel to the first stroke of a layer belongs to it.
+    const stroke = Math.max(trajectory.runs.stroke[run] ?? -1, trajectory.runs.stroke[run + 1] ?? -1);
+    if (stroke >= 0 && strokes.layer[stroke] !== layer) {
+      layer = strokes.layer[stroke];
+      layerAt.set(lines.length, strokes.layers[layer]);
     }
     let feed = 0;
     const moves = runs[run] ?? [];
@@ -139,5 +179,6 @@ function writeCommands(
     planS: Float64Array.from([...planS, trajectory.totalS]),
     warnings: [],
     lines,
+    layerAt,
   };
 }

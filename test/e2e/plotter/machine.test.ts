@@ -265,6 +265,42 @@ describe("machines as files", () => {
   });
 });
 
+describe("the profile of a Grbl machine", () => {
+  it("is edited and stored: how the pen is lifted, its values, and what may be left out", async () => {
+    await openPanel(page, "Plotter");
+    await button("Machines…", machinePanel()).click();
+    const sheet = page.getByRole("dialog", { name: "Machines" });
+    await button("Copy Plotter with Grbl and a Z axis to a new machine", sheet).click();
+    await sheet.getByLabel("Name", { exact: true }).fill("My Z");
+    await sheet.getByLabel("Z with the pen up", { exact: true }).fill("7");
+    await sheet.getByRole("switch", { name: "Set: Wait for the pen" }).setChecked(true);
+    await sheet.getByLabel("Wait for the pen", { exact: true }).fill("150");
+    const saved = async (): Promise<Record<string, unknown> | undefined> => {
+      await button("Save and use", sheet).click();
+      await button("Edit My Z", sheet).waitFor();
+      const { machines } = machineListSchema.parse(
+        await (await fetch(`${server.url}/api/v1/machines`)).json(),
+      );
+      return machines.find(({ name }) => name === "My Z")?.controller;
+    };
+    expect(await saved()).toMatchObject({ kind: "grbl", penUpZMm: 7, penDownZMm: 0, penWaitMs: 150 });
+
+    await button("Edit My Z", sheet).click();
+    await sheet.getByRole("radio", { name: "Servo (M3 S)" }).check();
+    await sheet.getByLabel("S with the pen up", { exact: true }).fill("480");
+    expect(await sheet.getByLabel("Z with the pen up", { exact: true }).count()).toBe(0);
+    expect(await saved()).toMatchObject({ penUpS: 480, penDownS: 300, penUpZMm: null, penDownZMm: null });
+
+    await button("Edit My Z", sheet).click();
+    await sheet.getByRole("radio", { name: "Own lines" }).check();
+    await sheet.getByLabel("Lines that lift the pen", { exact: true }).fill("M3 S90\nG4 P0.2");
+    expect(await saved()).toMatchObject({ penUpLines: "M3 S90\nG4 P0.2", penUpS: null });
+    await button("Remove My Z", sheet).click();
+    await button("Edit My Z", sheet).waitFor({ state: "detached" });
+    await page.keyboard.press("Escape");
+  });
+});
+
 describe("the name of a plotter", () => {
   it("a plotter's name that was changed elsewhere is shown in its field, which does not change it back", async () => {
     await button("Sharing, plotters, camera").click();

@@ -20,14 +20,43 @@ it("plan writes G-code for a Grbl, with the pen up at both ends", async () => {
   const { code, out } = await cli("plan", SAMPLE, "--machine-file", profile, "--commands", "-");
   expect(code).toBe(0);
   const lines = out.trim().split("\n");
-  expect(lines.slice(0, 3)).toEqual(["G21G90G94", "G1Z5F3000", "G4P0.1"]);
+  expect(lines.slice(0, 4)).toEqual([
+    expect.stringMatching(/^; For My Grbl: about \d+ min\. /),
+    "G21G90G94",
+    "G1Z5F3000",
+    "G4P0.1",
+  ]);
   expect(lines.slice(-2)).toEqual([expect.stringMatching(/^G1X0Y0/), "G4P0"]);
-  expect(lines.filter((line) => !/^G1[XZ][-\d.]+(Y[-\d.]+)?(F[\d.]+)?$|^G4P[\d.]+$/.test(line))).toEqual([
+  const moves = lines.filter((line) => !line.startsWith(";"));
+  expect(moves.filter((line) => !/^G1[XZ][-\d.]+(Y[-\d.]+)?(F[\d.]+)?$|^G4P[\d.]+$/.test(line))).toEqual([
     "G21G90G94",
   ]);
   expect(lines.filter((line) => line.startsWith("G1Z0")).length).toBe(
     lines.filter((line) => line.startsWith("G1Z5")).length - 1,
   );
+});
+
+it("plan names the layers in comments that no Grbl takes for a command", async () => {
+  const drawing = join(dir, "layers.svg");
+  writeFileSync(
+    drawing,
+    `<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="50mm" height="50mm" viewBox="0 0 50 50" fill="none" stroke="#aa0000">
+      <g inkscape:groupmode="layer" inkscape:label="1 Äste! (oben)?"><path d="M5 5h9"/><path d="M5 9h9"/></g>
+      <g inkscape:groupmode="layer" inkscape:label="2 ${"long ".repeat(30)}"><path d="M5 25h9"/></g></svg>`,
+  );
+  const { code, out } = await cli("plan", drawing, "--machine-file", profile, "--commands", "-");
+  expect(code).toBe(0);
+  const lines = out.trim().split("\n");
+  const comments = lines.filter((line) => line.startsWith(";")).slice(1);
+  expect(comments).toEqual([
+    "; Layer 1 _ste_ _oben__, #aa0000: pen down at 30 %, up at 60 %",
+    expect.stringMatching(/^; Layer 2 (long ?)+$/),
+  ]);
+  expect(comments.filter((line) => /[?!~]|[^ -\u007e]/.test(line) || line.length > 79)).toEqual([]);
+  // Each is before the travel to its layer.
+  const of = (text: RegExp): number => lines.findIndex((line) => text.test(line));
+  expect(of(/Layer 2/)).toBeGreaterThan(lines.lastIndexOf("G1Z0F3000", of(/Layer 2/)));
+  expect(lines.slice(of(/Layer 2/) + 1).filter((line) => line === "G1Z0F3000")).toHaveLength(1);
 });
 
 it("plot draws on a virtual Grbl", async () => {

@@ -4,6 +4,7 @@ import { profileText as words } from "./text.js";
 import { Segments, Select, Switch } from "../../ui/fields/choice.js";
 import { MmPair, NumberField } from "../../ui/fields/number-field.js";
 import { TextField } from "../../ui/fields/text-field.js";
+import { ControllerFields } from "./controller-fields.js";
 import { isEbbMachine, withController, type EbbProfile } from "./profile.js";
 
 interface ProfileFormProps {
@@ -24,11 +25,13 @@ export const ProfileForm = ({ profile, onChange }: ProfileFormProps) => {
       <TextField label={words.name} value={profile.name} onChange={(name) => change({ name })} />
       <ReachFields profile={profile} onChange={onChange} />
       <MotorFields profile={profile} onChange={onChange} />
-      {isEbbMachine(profile) && (
+      {isEbbMachine(profile) ? (
         <>
           <ServoFields profile={profile} onChange={onChange} />
           <HomingFields profile={profile} onChange={onChange} />
         </>
+      ) : (
+        <ControllerFields profile={profile} onChange={onChange} />
       )}
     </div>
   );

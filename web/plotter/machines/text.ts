@@ -46,6 +46,8 @@ export const profileText = {
   port: "Port",
   pin: "Pin",
   pressed: "Value when pressed",
+  controller: "Controller and pen",
+  useField: (label: string) => `Set: ${label}`,
 };
 
 /** Texts of the console. */

@@ -104,8 +104,8 @@ export const GRBL_FIELDS = {
     about: "home is where $H brings the carriage, and is found when the position is unknown; needs $22=1",
     default: false,
   },
-  penUpLines: OWN_LINES,
-  penDownLines: OWN_LINES,
+  penUpLines: { ...OWN_LINES, label: "Lines that lift the pen" },
+  penDownLines: { ...OWN_LINES, label: "Lines that lower the pen" },
 } as const;
 
 type Optional<Values> = { readonly [K in keyof Values]?: Values[K] | null | undefined };

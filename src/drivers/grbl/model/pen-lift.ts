@@ -6,8 +6,9 @@ import { PlotwrightError } from "../../../errors.js";
 import { HOBBY_SERVO } from "../../../machines/pen-servo.js";
 import type { Controller, MachineProfile, PenServo } from "../../../machines/profile.js";
 import { PEN_TABLE } from "../../../settings/pen.js";
+import type { ControllerChoice } from "../../driver.js";
 import { whyRefused } from "../console-lines.js";
-import { dwellS, grblOf, type GrblController } from "./grbl-controller.js";
+import { dwellS, GRBL_FIELDS, grblOf, type GrblController } from "./grbl-controller.js";
 import { moveTimeS, type GrblAxisLimits } from "./planner.js";
 
 export interface PenLift {
@@ -34,6 +35,26 @@ const AT_ONCE: PenServo = {
   liftPctPerS: Infinity,
   dropPctPerS: Infinity,
   frameMs: 0,
+};
+
+export const LIFT_CHOICE: ControllerChoice = {
+  label: "The pen is lifted by",
+  options: [
+    {
+      label: "Servo (M3 S)",
+      fields: { penUpS: GRBL_FIELDS.penUpS.default, penDownS: GRBL_FIELDS.penDownS.default },
+    },
+    {
+      label: "Z axis",
+      fields: {
+        penUpZMm: GRBL_FIELDS.penUpZMm.default,
+        penDownZMm: GRBL_FIELDS.penDownZMm.default,
+        penSpeedMmPerS: GRBL_FIELDS.penSpeedMmPerS.default,
+        penAccelMmPerS2: GRBL_FIELDS.penAccelMmPerS2.default,
+      },
+    },
+    { label: "Own lines", fields: { penUpLines: "M3 S600", penDownLines: "M3 S300" } },
+  ],
 };
 
 const given = (value: unknown): boolean => value !== null && value !== undefined;
