@@ -4,7 +4,7 @@ import { Segments, Switch } from "../../ui/fields/choice.js";
 import { NumberField } from "../../ui/fields/number-field.js";
 import { profileText as words } from "./text.js";
 
-type ControllerField = ReturnType<typeof controllerOf>["fields"][string];
+type FieldRow = ReturnType<typeof controllerOf>["fields"][string];
 
 interface Props {
   readonly profile: MachineProfile;
@@ -24,7 +24,7 @@ export const ControllerFields = ({ profile, onChange }: Props) => {
   const excluded = new Set(options.flatMap((option, i) => (i === chosen ? [] : Object.keys(option.fields))));
   const own = new Set(Object.keys(options[chosen]?.fields ?? {}));
   const rows = Object.entries(fields).filter(([key]) => own.has(key) || !excluded.has(key));
-  const field = ([key, row]: readonly [string, ControllerField]) => (
+  const field = ([key, row]: readonly [string, FieldRow]) => (
     <Field
       key={key}
       row={row}
@@ -55,7 +55,7 @@ export const ControllerFields = ({ profile, onChange }: Props) => {
 };
 
 interface FieldProps {
-  readonly row: ControllerField;
+  readonly row: FieldRow;
   /** It belongs to the chosen option, so it is not left out. */
   readonly isChosen: boolean;
   readonly value: unknown;
