@@ -94,6 +94,6 @@ export default defineConfig({
   server: {
     port: 5173,
     // Only the versioned interface: the client's sources are also under /api/.
-    proxy: { "^/api/v1/": { target: "http://127.0.0.1:9080" } },
+    proxy: { "^/api/v1/": { target: "http://127.0.0.1:9080", ws: true } },
   },
 });

@@ -92,6 +92,10 @@ export class LiveSender {
     });
   }
 
+  get hasFailed(): boolean {
+    return this.failure !== null;
+  }
+
   /** Calls `listener` with each report. The returned function ends that. */
   onReport(listener: (report: LiveReport) => void): () => void {
     this.listeners.add(listener);

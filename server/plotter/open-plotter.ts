@@ -1,6 +1,6 @@
 /** Entry "plotwright/plotter" on Node, Bun and Deno: opens a plotter for a program. Browsers get web/serial/open-plotter.ts. */
 import { openHandle, type PlotterChoice, type PlotterHandle } from "../../host/handle/open-handle.js";
-import { NODE_PARTS } from "./node-parts.js";
+import { NODE_PARTS, openSocket } from "./node-parts.js";
 
 export type * from "../../host/handle/plotter-handle.js";
 
@@ -11,7 +11,4 @@ export type * from "../../host/handle/plotter-handle.js";
  * @throws PlotwrightError "no-board", "busy", "not-allowed", "bad-setting"; with `url` "disconnected", "not-found"
  */
 export const openPlotter = (choice: PlotterChoice): Promise<PlotterHandle> =>
-  openHandle(choice, NODE_PARTS, null, async (address, protocols) => {
-    const { WebSocket } = await import("ws");
-    return new WebSocket(address, protocols);
-  });
+  openHandle(choice, NODE_PARTS, null, openSocket);

@@ -1,7 +1,7 @@
 /**
  * `plotwright live`: draws points from stdin as they come. At the end of the input the rest is drawn, and the carriage goes
  * home; at Ctrl-C at once. When the process must end (SIGTERM, its terminal is closed), the pen lifts where it is. The next
- * `plotwright live` then first draws what was left, also after a crash.
+ * `plotwright live` then first draws what was left, also after a crash. If a server has the plotter, the server draws.
  */
 import { readFileSync } from "node:fs";
 import { PlotwrightError } from "../../../src/index.js";
@@ -9,12 +9,15 @@ import { machineOf } from "../../../src/internal.js";
 import type { PlotSettings } from "../../../src/schema/index.js";
 import { isOtherBoard } from "../../../host/plotter/board-id.js";
 import { stopped } from "../../../host/handle/current-plot.js";
+import { endedOtherwise, LiveSender } from "../../../host/handle/live-sender.js";
+import { liveSocket } from "../../../host/handle/live-socket.js";
 import { drawLine } from "../../../host/plotter/live-lines.js";
 import { LIFT_AFTER_MS, livePlanner, LiveStrokes } from "../../../host/plotter/live-strokes.js";
 import type { PlotStart, PlotterPort, RunningPlot } from "../../../host/plotter/plotter-port.js";
 import { defaultDataDir } from "../../storage/data-dir.js";
 import { settingsOfOwnPlotter, withPortByName } from "../client/known-plotters.js";
-import { servedPlotter } from "../client/served-plotter.js";
+import { openSocket } from "../../plotter/node-parts.js";
+import { servedPlotter, type ServedPlotter } from "../client/served-plotter.js";
 import { withPlotter } from "../hand-commands.js";
 import { printed, type CliIo } from "../io.js";
 import { addData, addDevice, milliseconds, type Declare, type DeviceOptions } from "../options.js";
@@ -44,7 +47,10 @@ export const declareLive: Declare = (command, { io, setExitCode }) => {
     .option("--quiet", "print nothing but errors")
     .action(async (given: LiveCommandOptions & OptionValues) => {
       const served = await servedPlotter(given);
-      if (served !== null) throw isServed(served.access.url);
+      if (served !== null) {
+        setExitCode(await drawOnServer(served, given, io));
+        return;
+      }
       const options = await withPortByName(given);
       const { settings, note } = await settingsOfOwnPlotter(options);
       if (note !== null && options.quiet !== true) io.err(printed`note: ${note}\n`);
@@ -114,7 +120,7 @@ async function follow(run: RunningPlot, source: LiveStrokes, record: PlotRecord,
   run.finished.then(({ kind }) => kind === "done" || fail(stopped()), fail);
   const end = new AbortController();
   try {
-    const reading = read(source, record, io, end.signal);
+    const reading = read(source, (line) => record.append(`${line}\n`), io, end.signal);
     reading.catch(() => run.cancel().catch(() => undefined));
     const { kind } = await run.finished;
     end.abort();
@@ -131,15 +137,20 @@ async function follow(run: RunningPlot, source: LiveStrokes, record: PlotRecord,
   }
 }
 
-/** Adds the lines of stdin. A line that can't be drawn is named and left out. Returns the exit code. */
-async function read(source: LiveStrokes, record: PlotRecord, io: CliIo, end: AbortSignal): Promise<number> {
+/** Adds the lines of stdin. A line that can't be drawn is named and left out. `keep` stores one. Returns the exit code. */
+async function read(
+  source: LiveStrokes | LiveSender,
+  keep: (line: string) => void,
+  io: CliIo,
+  end: AbortSignal,
+): Promise<number> {
   let number = 0;
   let exitCode = 0;
   for await (const line of io.inputLines(end)) {
     number++;
     try {
       drawLine(line, source);
-      record.append(`${line}\n`);
+      keep(line);
       await source.room();
     } catch (error) {
       if (source.hasFailed) return CANCELLED;
@@ -159,8 +170,40 @@ function readAgain(record: PlotRecord, source: LiveStrokes): void {
   source.penUp();
 }
 
-const isServed = (url: string): PlotwrightError =>
-  new PlotwrightError(
-    "conflict",
-    `The server at ${url} has this plotter. Send it the lines (curl -T - -X POST ${url}/api/v1/plotters/ID/live), end the server, or draw on another plotter.`,
-  );
+/** A server that has the plotter draws: as a job, which is paused if this process must end. */
+async function drawOnServer(
+  { access, client, plotter, settings: { settings, note } }: ServedPlotter,
+  { liftAfterMs, quiet }: LiveCommandOptions,
+  io: CliIo,
+): Promise<number> {
+  const socket = liveSocket(openSocket, access.url, plotter.id, access.key);
+  const sender = await LiveSender.begin(socket, { name: NAME, settings, liftAfterMs });
+  const { id } = sender.job;
+  if (quiet !== true) {
+    if (note !== null) io.err(printed`note: ${note}\n`);
+    io.err(printed`Drawing live on ${plotter.name}: one point on each line, in mm from home.\n`);
+  }
+  let isInterrupted = false;
+  const forget = io.onInterrupt((isFinal) => {
+    isInterrupted ||= isFinal;
+    if (isFinal) sender.close();
+    else void client.jobs.cancel(id).catch(() => undefined);
+  });
+  const end = new AbortController();
+  try {
+    const reading = read(sender, () => undefined, io, end.signal);
+    reading.catch(() => sender.close());
+    const { state, message } = await sender.ended.finally(() => end.abort());
+    const exitCode = await reading;
+    if (state === "done") return exitCode;
+    if (state === "cancelled") return cancelled(io);
+    throw endedOtherwise(state, message);
+  } catch (error) {
+    if (!isInterrupted) throw error;
+    io.err("plotwright: interrupted, the pen is up. The job waits on the server.\n");
+    return CANCELLED;
+  } finally {
+    end.abort();
+    forget();
+  }
+}

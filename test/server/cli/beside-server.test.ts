@@ -45,6 +45,19 @@ const plotter = async (): Promise<Plotter> => {
   return (await response.json()) as Plotter;
 };
 
+describe("plotwright live beside a running server", () => {
+  it("draws its lines as a job of the server", async () => {
+    const io = new CaughtIo();
+    io.inputText = "20 20\n40 20\nup\n-5 1\n[[30, 30], [50, 30]]\n";
+    expect(await cliWith(io, "live", "--data", data)).toMatchObject({
+      code: 3,
+      err: expect.stringMatching(/Drawing live on .*\nline 4: .*-5/) as string,
+    });
+    const all = (await stateOfServer(server)).jobs;
+    expect(all.map(({ name, state }) => [name, state])).toEqual([["live drawing", "done"]]);
+  });
+});
+
 describe("a command by hand beside a running server", () => {
   it("moves the server's plotter, with its settings and those of the flags", async () => {
     expect(await there("move-to", "30", "2cm")).toEqual({ code: 0, out: "", err: "" });

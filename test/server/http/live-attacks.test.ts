@@ -1,4 +1,5 @@
 /** Attacks on the WebSocket of live drawings, which is the one upgrade that the server allows. */
+import { request as httpRequest } from "node:http";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { WebSocket } from "ws";
 import { DEFAULT_PLOT_SETTINGS, liveReportSchema, type LiveReport } from "../../../src/schema/index.js";
@@ -203,5 +204,57 @@ describe("the WebSocket of live drawings", () => {
     const other = await open({ ...browser, Cookie });
     expect(await found(other, "error")).toMatchObject({ code: "not-operator" });
     expect(await other.closed).toBe(1008);
+  });
+});
+
+describe("a request with the lines of a live drawing", () => {
+  /** Sends lines, with time between them. */
+  function sending() {
+    const { hostname, port } = new URL(app.url);
+    const path = "/api/v1/plotters/virtual/live";
+    const request = httpRequest({ hostname, port, path, method: "POST", headers: operator() });
+    request.on("error", () => undefined);
+    const answered = new Promise<number>((resolve) =>
+      request.on("response", (response) => {
+        response.resume();
+        resolve(response.statusCode ?? 0);
+      }),
+    );
+    return { request, answered };
+  }
+
+  it("may take longer than any other request, and is answered when all is drawn", async () => {
+    await app.close();
+    app = await startApp({ times: { connectionsCheckingInterval: 50 } });
+    app.hurry(200, 300);
+    const { request, answered } = sending();
+    for (let i = 0; i < 8; i++) {
+      request.write(`${10 + i} 10\n`);
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    }
+    const run = await app.plotter.nextRun();
+    request.end();
+    await expect.poll(() => run.start.live?.isEnded).toBe(true);
+    expect(run.start.live?.pointCount).toBe(8);
+    run.end({ kind: "done" });
+    expect(await answered).toBe(200);
+  });
+
+  it("pauses the job when it breaks off, or has a line that is too long", async () => {
+    for (const last of [null, "1".repeat(300_000)]) {
+      const { request } = sending();
+      request.write("10 10\n20 10\n");
+      const run = await app.plotter.nextRun();
+      await expect.poll(() => run.start.live?.pointCount).toBe(2);
+      if (last === null) request.destroy();
+      else request.write(last);
+      await expect.poll(() => run.asked).toEqual(["pause"]);
+      expect(app.queue.list()[0]).toMatchObject({
+        state: "paused",
+        message: expect.stringMatching(/sender of this live drawing was lost/) as string,
+      });
+      run.end({ kind: "done" });
+      await expect.poll(() => state().every((one) => one === "done")).toBe(true);
+    }
   });
 });
