@@ -185,10 +185,10 @@ export class RunningPlots {
   pause(id: string, why: string | null = null): Job {
     const running = this.runningOf(id, ["plotting"], "paused");
     running.pauseWords = why;
-    const job = this.jobs.note(id, why ?? "Pausing: the pen finishes what it is drawing, then lifts.");
+    this.jobs.note(id, why ?? "Pausing: the pen finishes what it is drawing, then lifts.");
     if (running.run === null) running.beginsHeld = true;
     else this.ask(running, running.run.pause());
-    return job;
+    return this.jobs.get(id);
   }
 
   resume(id: string): Job {
