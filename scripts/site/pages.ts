@@ -46,6 +46,7 @@ export const PAGE_GROUPS: readonly PageGroup[] = [
   {
     title: "How to",
     pages: [
+      page("docs/grbl.md", "Grbl machines"),
       page("docs/sheets.md", "Several drawings, large drawings"),
       page("docs/recipes.md", "From every tool"),
       page("docs/config-examples.md", "Config files"),

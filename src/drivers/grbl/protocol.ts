@@ -122,15 +122,33 @@ function axesOf(report: string, name: string, mmPerUnit: number): Axes | null {
 }
 
 const ERRORS: Readonly<Record<number, string>> = {
+  1: "a word begins with no letter",
+  2: "a number is missing or damaged",
+  3: "Grbl does not know that setting or command",
+  4: "a value must not be negative",
+  5: "homing is switched off ($22=0)",
+  7: "its stored settings were damaged, and it uses its defaults",
   8: "the machine must be idle for that",
   9: "the machine is locked after an alarm",
+  10: "soft limits need homing ($22=1)",
   11: "the line is too long",
+  12: "a setting asks for more steps a second than it can make",
   15: "the target is outside the machine's travel",
+  16: "a manual move is written wrongly",
   20: "Grbl does not know that command",
   21: "two commands exclude each other",
   22: "no feed rate was set",
+  23: "a whole number is needed",
+  24: "two commands in the line use the axes",
   25: "a word is repeated",
+  26: "the command needs an axis",
+  28: "a value that the command needs is missing",
+  31: "an axis is given that the command does not use",
+  32: "an arc has no axis in its plane",
   33: "the target is invalid",
+  34: "the radius of an arc does not reach its end",
+  35: "an arc has no centre",
+  36: "a word is not used by any command",
 };
 
 /** `reply`: "error:20", for example. */
@@ -146,11 +164,17 @@ const ALARMS: Readonly<Record<number, string>> = {
   1: "a limit switch was hit",
   2: "the target is beyond the soft limits",
   3: "the machine was reset during a motion",
+  4: "the probe was touched before it was used",
+  5: "the probe has touched nothing",
   6: "the machine was reset while it sought its switches",
+  7: "the door was opened while it sought its switches",
   8: "a switch was not released after homing",
   9:
     "a switch was not found. It may be unplugged, or the Grbl seeks one that the machine does not have, often that of Z: " +
     "take that axis out of its homing cycle",
+  10: "its emergency stop was pressed, or a switch was not found",
+  11: "it must be homed first",
+  14: "it must be homed first",
 };
 
 /** `findsHome`: the machine finds home by itself. */

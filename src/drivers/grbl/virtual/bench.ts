@@ -18,7 +18,7 @@ const faults: Readonly<Record<string, Fault>> = {
     apply: act((board) => board.restart()),
   },
   hold: { usage: "hold", does: "its hold button is pressed", apply: act((board) => board.pressHold()) },
-  limit: { usage: "limit", does: "a limit switch is hit", apply: act((board) => board.hitSwitch()) },
+  limit: { usage: "limit", does: "a limit switch is hit", apply: act((board) => board.stopWith(1)) },
   lose: {
     usage: "lose N",
     does: "the next N answers are lost",

@@ -120,10 +120,10 @@ export class VirtualGrbl implements VirtualMachine {
     this.ink.begin(false);
   }
 
-  /** As if it has hit a limit switch: it stops, and answers nothing until it is reset. */
-  hitSwitch(): void {
+  /** An alarm, such as 1 for a limit switch: it stops, and answers nothing until it is reset. */
+  stopWith(alarm: number): void {
     this.catchUp();
-    this.alarm(1);
+    this.alarm(alarm);
     this.schedule();
   }
 
@@ -238,7 +238,7 @@ export class VirtualGrbl implements VirtualMachine {
     if (line === "" || line.startsWith("$")) this.refusal = 0;
     if (line === "") return 0;
     if (this.refusal !== 0) return this.refusal;
-    const answer = this.settings.takes("refused") ? ERROR.unknown : this.performLine(line);
+    const answer = this.settings.takes("refused") ? this.settings.refusal : this.performLine(line);
     if (answer !== null && this.settings.face.refusesOn) this.refusal = answer;
     return answer;
   }

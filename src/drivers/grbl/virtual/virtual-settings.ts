@@ -2,6 +2,7 @@
 import type { MachineProfile } from "../../../machines/profile.js";
 import { axisLimits, grblOf } from "../model/grbl-controller.js";
 import { difference, type Axes, type GrblAxisLimits } from "../model/planner.js";
+import { ERROR } from "./gcode-words.js";
 import { faceNamed, faceOf, type Face, type FaceName } from "./faces.js";
 
 export interface VirtualGrblOptions {
@@ -9,6 +10,8 @@ export interface VirtualGrblOptions {
   readonly face?: FaceName;
   /** Characters that its receive buffer really holds; default: as many as it reports. */
   readonly rxBytes?: number;
+  /** The code with which it refuses a line when `spoil("refused")` was called; default 20. */
+  readonly refusal?: number;
   /** Settings by number, where they differ from the machine's profile: { 110: 3000 } is $110=3000. */
   readonly settings?: Readonly<Record<number, number>>;
 }
@@ -34,7 +37,7 @@ export interface VirtualGrblState {
 
 /**
  * Faults of the connection: the next replies ("ok" or "error:n") are lost, sent twice or damaged; the next line ends do
- * not arrive, so that two lines become one; the next lines are refused with error:20.
+ * not arrive, so that two lines become one; the next lines are refused.
  */
 export type LineFault = "reply-lost" | "reply-doubled" | "reply-damaged" | "line-end-lost" | "refused";
 
@@ -44,6 +47,7 @@ const OFFSET_EVERY = { rest: 10, motion: 30 };
 export class VirtualSettings {
   readonly face: Face;
   readonly rxBytes: number;
+  readonly refusal: number;
   /** Reports until the next one with the work offset. */
   offsetDue = 0;
   private readonly settings = new Map<number, number>();
@@ -52,8 +56,9 @@ export class VirtualSettings {
   constructor(
     machine: MachineProfile,
     version: string,
-    { face = faceNamed(version), rxBytes, settings = {} }: VirtualGrblOptions,
+    { face = faceNamed(version), rxBytes, refusal = ERROR.unknown, settings = {} }: VirtualGrblOptions,
   ) {
+    this.refusal = refusal;
     this.face = faceOf(face);
     this.rxBytes = rxBytes ?? this.face.rxBytes;
     const { speed, accel, junctionMm } = axisLimits(grblOf(machine));

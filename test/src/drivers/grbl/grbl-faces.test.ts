@@ -74,7 +74,7 @@ describe.each(FACES)("a %s", (face) => {
     const { world, board, driver, begin, within } = await newPlotter({ face });
     const run = await begin();
     await world.advance(2.1);
-    board.hitSwitch();
+    board.stopWith(1);
     expect(await within(run.finished)).toMatch(/^board-error: The Grbl has stopped with (an alarm|ALARM:1)/);
     expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
     expect(driver.state).toMatchObject({ connection: "idle", xMm: null });

@@ -132,7 +132,7 @@ describe("after an error", () => {
   it.each([
     [
       "an alarm",
-      (board: VirtualGrbl) => board.hitSwitch(),
+      (board: VirtualGrbl) => board.stopWith(1),
       /^board-error: The Grbl has stopped with ALARM:1/,
     ],
     ["a restart", (board: VirtualGrbl) => board.restart(), /^board-error: The Grbl has restarted/],
@@ -153,7 +153,7 @@ describe("after an error", () => {
     await world.advance(2.1);
     const asked = run.pause().catch(() => undefined);
     await world.advance(0.02);
-    board.hitSwitch();
+    board.stopWith(1);
     expect(await within(run.finished)).toMatch(/^board-error: The Grbl has stopped with ALARM:1/);
     await world.run(asked, LIMIT_S);
     expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
@@ -258,7 +258,7 @@ describe("an emergency stop", () => {
   it.each([
     [
       "a hit switch",
-      (board: VirtualGrbl) => board.hitSwitch(),
+      (board: VirtualGrbl) => board.stopWith(1),
       /^board-error: The Grbl has stopped with ALARM:1/,
     ],
     ["a restart", (board: VirtualGrbl) => board.restart(), /^board-error: The Grbl has restarted/],

@@ -133,7 +133,7 @@ describe("a Grbl that is locked until it is homed ($22=1)", () => {
 
   it.each([
     ["a restart", (board: VirtualGrbl) => board.restart()],
-    ["a limit switch", (board: VirtualGrbl) => board.hitSwitch()],
+    ["a limit switch", (board: VirtualGrbl) => board.stopWith(1)],
   ])("is not unlocked after %s in mid-plot", async (_, fault) => {
     const { world, board, driver, begin, within } = await newPlotter({ settings: { 22: 1 } });
     await within(driver.command("$X"));
