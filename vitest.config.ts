@@ -12,7 +12,7 @@ const REAL_TIME = ["test/serial/**/*.test.ts"];
 const LOAD = ["test/serial/load.test.ts", "test/serial/attacks.test.ts"];
 
 /** Tests of the command line that replace modules (vi.mock), so each file has a process of its own. */
-const COMMANDS = ["hand-commands", "plot", "reference", "stdin"].map(
+const COMMANDS = ["add-and-queue", "hand-commands", "plot", "reference", "stdin"].map(
   (name) => `test/server/cli/${name}.test.ts`,
 );
 

@@ -23,7 +23,8 @@ import {
   PEN_TABLE,
   PLOT_PEN_TABLE,
 } from "../src/settings/pen.js";
-import { HATCH_TABLE, MARGINS_TABLE, PAPER_TABLE, PREPARE_TABLE } from "../src/settings/prepare.js";
+import { MARGINS_TABLE, PAPER_TABLE } from "../src/settings/placement.js";
+import { HATCH_TABLE, PREPARE_TABLE } from "../src/settings/prepare.js";
 import { meaningInWords, takesAuto, type Setting, type SettingsTable } from "../src/settings/setting.js";
 
 interface SettingsType {

@@ -44,12 +44,11 @@ export { encodingOf, textOfBytes } from "./import/text-of-bytes.js";
 export {
   ORDER_MODES,
   type FourMargins,
-  type PlacedBox,
   HATCH_TABLE,
   LAYER_REPEATS,
-  PAPER_TABLE,
   PREPARE_TABLE,
 } from "./settings/prepare.js";
+export { PAPER_TABLE, type PlacedBox } from "./settings/placement.js";
 export {
   DEFAULT_FIT,
   CORNER_RULES,

@@ -16,15 +16,14 @@ import {
   pointAt,
   type Machine,
   type Playback,
-  type MachineState,
   machineOf,
   penOfStroke,
-  PositionTimes,
   strokeCount,
 } from "../../src/internal.js";
 import type { PlotSettings, PlotWait } from "../../src/schema/index.js";
 import { resumePosition, PROGRESS_S } from "./resume-position.js";
 import { PenStops } from "./pen-stops.js";
+import { PlotPlans } from "./plot-plans.js";
 import { PlotReports } from "./plot-reports.js";
 import { LiveFeed } from "./live-feed.js";
 import type { LiveStrokes } from "./live-strokes.js";
@@ -56,17 +55,12 @@ export class MachinePlot implements RunningPlot {
   private readonly stops: PenStops;
   /** Null: the drawing is complete. */
   private readonly feed: LiveFeed | null;
+  private readonly plans: PlotPlans;
   private failure: PlotwrightError | null = null;
-  /** Planned time of the plot after the part being drawn. */
-  private afterPartS = 0;
-  /** Times of the whole plot, if it is drawn in several parts. */
-  private whole: Promise<PositionTimes> | null = null;
-  private planningS = 0;
   private changing: Promise<void> | null = null;
   /** The user's moves while it is held; nothing else may move until they have finished. */
   private moving: Promise<void> = Promise.resolve();
   private wakeHold: (() => void) | null = null;
-  private cancelPlanning: ((error: PlotwrightError) => void) | null = null;
   /** The carriage stays where it is until the next request: after an emergency stop, or when a held plot is left. */
   private holdsPosition = false;
   private readonly heldListeners: HeldListener[] = [];
@@ -98,6 +92,16 @@ export class MachinePlot implements RunningPlot {
     this.feed = live ? new LiveFeed(live, machine, this.stream, this.settings, () => this.holdPlace) : null;
     this.reports = new PlotReports(machine, this.stream, this.settings, live ? inWhole(live, start) : start);
     const { from = null, received } = start;
+    const { stream, stops, feed } = this;
+    this.plans = new PlotPlans({
+      machine,
+      planner,
+      stream,
+      settings: this.settings,
+      stops,
+      feed,
+      start: from,
+    });
     this.holdPlace =
       from && resumePosition(machine, this.strokes, settings, this.stops.strokes, { from, received });
     if (start.held ?? this.holdPlace !== null) this.requested = "hold";
@@ -139,7 +143,7 @@ export class MachinePlot implements RunningPlot {
 
   cancel(): Promise<void> {
     this.request("cancel");
-    this.cancelPlanning?.(cancelled());
+    this.plans.cancel();
     return this.waiters.until(() => false);
   }
 
@@ -152,7 +156,7 @@ export class MachinePlot implements RunningPlot {
 
   async interrupt(): Promise<void> {
     const held = this.pause();
-    this.cancelPlanning?.(cancelled());
+    this.plans.cancel();
     await held;
     await this.leave();
   }
@@ -272,10 +276,12 @@ export class MachinePlot implements RunningPlot {
       }
       const until = this.stops.nextAfter(this.holdPlace);
       const { changeCount } = this.settings;
-      const plot = await this.planFromRest().catch((error: unknown) => {
-        if (this.requested !== "run") return null;
-        throw error;
-      });
+      const plot = await this.plans
+        .fromRest(this.holdPlace, () => this.requested === "run")
+        .catch((error: unknown) => {
+          if (this.requested !== "run") return null;
+          throw error;
+        });
       if (!plot) continue;
       // Lift before the check: a request during the lift must be seen before anything moves.
       if (this.machine.penUp !== true && !this.feed) await this.machine.movePen(true, this.settings.current);
@@ -293,7 +299,7 @@ export class MachinePlot implements RunningPlot {
   private async play(plot: PlannedPlot): Promise<StrokePosition | null> {
     this.feed?.take(plot);
     try {
-      await this.stream.play(plot, this.afterPartS, () => this.streamBegun());
+      await this.stream.play(plot, this.plans.afterPartS, () => this.streamBegun());
     } catch (error) {
       this.feed?.ended(true);
       throw error;
@@ -305,72 +311,10 @@ export class MachinePlot implements RunningPlot {
   private async liftPenIfDown(): Promise<void> {
     if (!this.start.from) return;
     // Plan now, while the user checks pen and paper.
-    if (!this.feed) this.timesOfWhole().catch(() => undefined);
+    if (!this.feed) this.plans.timesOfWhole().catch(() => undefined);
     if (this.machine.state && this.machine.penUp !== true) {
       await this.machine.movePen(true, this.settings.current);
     }
-  }
-
-  private async planFromRest(): Promise<PlannedPlot> {
-    const settings = this.settings.current;
-    const board = await this.machine.prepareMotors(settings);
-    // A request meanwhile, when there was no planning to cancel yet.
-    if (this.requested !== "run") throw cancelled();
-    const { x, y } = this.machine.positionMm(machineOf(settings))!;
-    const planning = this.plan(this.holdPlace, x, y, board);
-    const cancel = new Promise<never>((_, reject) => {
-      this.cancelPlanning = reject;
-    });
-    try {
-      return await Promise.race([planning, cancel]);
-    } finally {
-      this.cancelPlanning = null;
-      planning.catch(() => undefined);
-    }
-  }
-
-  /** Plans from a place to the next pen change. */
-  private async plan(
-    from: StrokePosition | null,
-    x: number,
-    y: number,
-    board: MachineState,
-  ): Promise<PlannedPlot> {
-    if (this.feed) return this.feed.planFrom(from, x, y, board);
-    const until = this.stops.nextAfter(from);
-    const times = until === null && !this.start.from ? null : await this.timesOfWhole();
-    this.afterPartS = until === null ? 0 : times!.leftFrom({ stroke: until, alongMm: 0 });
-    const clock = this.machine.clock;
-    const startS = clock.nowS();
-    const plot = await this.planner.plan({
-      from,
-      until,
-      startXMm: x,
-      startYMm: y,
-      settings: this.settings.planned,
-      firmware: this.machine.firmware,
-      board,
-    });
-    this.planningS = clock.nowS() - startS;
-    return plot;
-  }
-
-  /** Times of the whole plot, since progress refers to the whole even if only a part is being drawn. */
-  private timesOfWhole(): Promise<PositionTimes> {
-    const request = {
-      from: null,
-      until: null,
-      startXMm: 0,
-      startYMm: 0,
-      settings: this.settings.planned,
-      firmware: this.machine.firmware,
-    };
-    this.whole ??= this.planner.plan(request).then(({ trajectory }) => {
-      const times = new PositionTimes(trajectory);
-      this.stream.progress.setWhole(trajectory, times, this.start.from ?? null);
-      return times;
-    });
-    return this.whole;
   }
 
   /** Plans the rest with the new settings, and switches to it at a place that was not yet sent to the board. */
@@ -379,12 +323,12 @@ export class MachinePlot implements RunningPlot {
     let tries = 0;
     while (this.requested === "run" && tries < CHANGE_TRIES) {
       const { playing } = this.stream;
-      const over = this.stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.planningS * 2 ** tries);
+      const over = this.stream.placeAhead(CHANGE_LEAD_S * speed + 1.5 * this.plans.planningS * 2 ** tries);
       if (over) {
         tries++;
-        const plot = await this.plan(over.from, over.x, over.y, over.board);
+        const plot = await this.plans.from(over.from, over.x, over.y, over.board);
         if (this.requested !== "run" || this.stream.playing !== playing) return;
-        if (over.switchTo(plot, this.afterPartS)) return this.feed?.take(plot);
+        if (over.switchTo(plot, this.plans.afterPartS)) return this.feed?.take(plot);
       } else if (!this.stream.isSwitching) return;
       else await new Promise<void>((resolve) => void clock.after(PROGRESS_S * speed, resolve));
     }
@@ -468,5 +412,3 @@ const notLive = (name: string): PlotwrightError =>
     "bad-setting",
     `${name} can't draw live yet: only plotters with an EiBotBoard can. Plot finished drawings on it instead.`,
   );
-
-const cancelled = (): PlotwrightError => new PlotwrightError("cancelled", "The plot was cancelled.");

@@ -1,12 +1,7 @@
 /** Completes the settings of `prepare` with their defaults, and rejects unknown names and invalid values. */
 import { checkNames, refuseSetting } from "../check-arguments.js";
-import {
-  DEFAULT_PREPARE,
-  HATCH_TABLE,
-  PAPER_TABLE,
-  PREPARE_TABLE,
-  type PrepareSettings,
-} from "../settings/prepare.js";
+import { DEFAULT_PREPARE, HATCH_TABLE, PREPARE_TABLE, type PrepareSettings } from "../settings/prepare.js";
+import { PAPER_TABLE } from "../settings/placement.js";
 import {
   AUTO,
   isAllowed,

@@ -2,7 +2,8 @@
 import type { Drawing } from "../drawing/drawing.js";
 import { PAPER_SIZES, type PaperSize } from "../drawing/paper.js";
 import { boxContains, isEmptyBox, type Box } from "../geometry/box.js";
-import { PAPER_TABLE, type FourMargins, type PrepareSettings } from "../settings/prepare.js";
+import { PAPER_TABLE } from "../settings/placement.js";
+import type { FourMargins, PrepareSettings } from "../settings/prepare.js";
 import { layOutDrawing, withTolerance, type LayoutChoice, type Layout } from "./layout.js";
 import { orientedPaper } from "./tiles.js";
 import { isReached } from "./on-paper.js";

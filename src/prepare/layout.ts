@@ -35,7 +35,8 @@ import {
   uniteBoxes,
   type Box,
 } from "../geometry/box.js";
-import type { MirrorMode, PlacedBox, PrepareSettings } from "../settings/prepare.js";
+import type { MirrorMode, PlacedBox } from "../settings/placement.js";
+import type { PrepareSettings } from "../settings/prepare.js";
 import { sheetOf } from "./tiles.js";
 
 export interface Layout {

@@ -4,7 +4,7 @@ import { boxContains, boxOfPoints, grownBox, hasRoom, isEmptyBox, type Box } fro
 import { clipLinesToBox } from "../geometry/cut-line.js";
 import { lineBox, lineCount, type Lines } from "../geometry/polyline.js";
 import { mmInWords } from "../units.js";
-import type { OutsideMode } from "../settings/prepare.js";
+import type { OutsideMode } from "../settings/placement.js";
 import { ROUNDING_MM, withTolerance, type Layout } from "./layout.js";
 import { checkObject } from "../check-arguments.js";
 import { checkStrokes, strokeCount, type StrokeSet } from "../drawing/stroke-set.js";

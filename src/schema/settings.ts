@@ -27,11 +27,10 @@ import {
   DEFAULT_PREPARE,
   HATCH_TABLE,
   LAYER_REPEATS,
-  MARGINS_TABLE,
-  PAPER_TABLE,
   PREPARE_TABLE,
   type PrepareSettings,
 } from "../settings/prepare.js";
+import { MARGINS_TABLE, PAPER_TABLE } from "../settings/placement.js";
 import { STREAM_TABLE } from "../settings/machine.js";
 import type { StreamValues } from "../settings/values.js";
 import type { JobSettings } from "../drivers/machine-job.js";

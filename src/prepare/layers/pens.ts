@@ -16,7 +16,8 @@ import {
   setFor,
 } from "../../drawing/stroke-set.js";
 import { parseLayerName, shownLayerName } from "./layer-codes.js";
-import type { PrepareSettings, ShiftMm } from "../../settings/prepare.js";
+import type { ShiftMm } from "../../settings/placement.js";
+import type { PrepareSettings } from "../../settings/prepare.js";
 import type { PlotPenValues } from "../../settings/values.js";
 
 export const PEN_STOP_MODES = ["never", "pens", "layers"] as const;
