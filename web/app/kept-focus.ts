@@ -1,6 +1,7 @@
 /**
- * Keeps the focus in lists, wherever a row is removed or moved: the next row gets it, or the last one, or the heading of
- * the list. Otherwise the browser gives it to nothing, and someone without a mouse begins at the top of the page again.
+ * Keeps the focus. In lists, wherever a row is removed, the next row gets it, or the last one, or the heading of the list;
+ * a row that is moved keeps it, and so does a control that was off for a while. Otherwise the browser gives it to nothing,
+ * and someone without a mouse begins at the top of the page again.
  */
 
 const ROWS = "li, tr";
@@ -8,7 +9,8 @@ const CONTROLS = ":is(button, input, select, textarea, summary, a[href]):not(:di
 
 interface Place {
   readonly element: HTMLElement;
-  readonly list: Element;
+  /** Null: it is in no list. */
+  readonly list: Element | null;
   /** The list, and what is around it up to its section. */
   readonly around: readonly Element[];
   readonly rowIndex: number;
@@ -16,52 +18,57 @@ interface Place {
   readonly controlIndex: number;
 }
 
-export function keepFocusInLists(): void {
+export function keepFocus(): void {
   let last: Place | null = null;
   document.addEventListener("focusin", ({ target }) => {
     last = placeOf(target as HTMLElement);
   });
   document.addEventListener("focusout", ({ target }) =>
     setTimeout(() => {
-      // Taken away by the user, not by the end of its row.
-      const isLeft = last?.element === target && last.element.isConnected;
+      // Taken away by the user, not by the end of its row or because it is off.
+      const isLeft =
+        last?.element === target && last.element.isConnected && !last.element.matches(":disabled");
       if (isLeft && document.activeElement !== target) last = null;
     }),
   );
   new MutationObserver((changes) => {
     if (last === null || document.activeElement !== document.body) return;
     const { element } = last;
-    const isMoved = changes.some(({ removedNodes }) =>
-      [...removedNodes].some((node) => node.contains(element)),
-    );
-    if (element.isConnected && !isMoved) return;
-    const next = element.isConnected ? element : (controlNear(last) ?? headingOf(last));
+    if (element.isConnected) {
+      const isBack = changes.some(
+        ({ target, removedNodes }) =>
+          target === element || [...removedNodes].some((node) => node.contains(element)),
+      );
+      if (isBack) element.focus({ preventScroll: true });
+      return;
+    }
+    const next = controlNear(last) ?? headingOf(last);
     last = null;
     next?.focus();
-  }).observe(document.body, { childList: true, subtree: true });
+  }).observe(document.body, {
+    childList: true,
+    subtree: true,
+    attributes: true,
+    attributeFilter: ["disabled"],
+  });
 }
 
-function placeOf(element: HTMLElement): Place | null {
+function placeOf(element: HTMLElement): Place {
   const row = element.closest(ROWS);
-  const list = row?.parentElement;
-  if (!row || !list) return null;
+  const list = row?.parentElement ?? null;
+  if (!row || !list) return { element, list: null, around: [], rowIndex: 0, controlIndex: 0 };
   const around = [list];
   for (let at: Element | null = list; at && !at.matches("section, aside, dialog"); at = at.parentElement) {
     if (at.parentElement) around.push(at.parentElement);
   }
   const rowIndex = [...list.children].indexOf(row);
-  return {
-    element,
-    list,
-    around,
-    rowIndex,
-    controlIndex: [...row.querySelectorAll(CONTROLS)].indexOf(element),
-  };
+  const controlIndex = [...row.querySelectorAll(CONTROLS)].indexOf(element);
+  return { element, list, around, rowIndex, controlIndex };
 }
 
 /** The same control of the row that is now at its place, or of the nearest one that has controls. */
 function controlNear({ list, rowIndex, controlIndex }: Place): HTMLElement | null {
-  if (!list.isConnected) return null;
+  if (!list?.isConnected) return null;
   const rows = [...list.children].map((row) => row.querySelectorAll<HTMLElement>(CONTROLS));
   const inOrder = [...rows.slice(rowIndex), ...rows.slice(0, rowIndex).reverse()];
   const controls = inOrder.find(({ length }) => length > 0);

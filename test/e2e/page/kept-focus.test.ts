@@ -1,5 +1,6 @@
 /** Removing by keyboard: in every list the focus goes to the next row, or to the list's heading when it is empty. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { plotBar } from "../../support/browser/page-actions.js";
 import { PageTest } from "../../support/browser/page-test.js";
 import { ruledSheet } from "../../support/drawings/drawings.js";
 
@@ -145,6 +146,25 @@ describe("the focus after removing a row", () => {
     await expect.poll(focused).toBe("Revoke two");
     await revoke("two");
     await expect.poll(focused).toBe("Sharing");
+  });
+
+  it("stays on a button that is off while its request is under way", async () => {
+    const { page } = test;
+    await page.keyboard.press("Escape");
+    await test.drop("tide", ruledSheet(3));
+    let answer = (): void => undefined;
+    const isAnswered = new Promise<void>((resolve) => (answer = resolve));
+    await page.route(/\/api\/v1\/jobs\b/, async (route) => {
+      await isAnswered;
+      await route.continue();
+    });
+    const button = plotBar(page).getByRole("button", { name: "Add to queue" });
+    await press("Add to queue");
+    await button.and(page.locator(":disabled")).waitFor();
+    answer();
+    await button.and(page.locator(":enabled")).waitFor();
+    await expect.poll(focused).toBe("Add to queue");
+    await page.unroute(/\/api\/v1\/jobs\b/);
   });
 
   it("logs no error in the browser's console", () => {

@@ -21,6 +21,9 @@ const NEW: readonly { machine: MachineId; firmware: string; homesItself: boolean
   { machine: "nextdraw-8511", firmware: "3.0.3", homesItself: true, clicks: 5 },
 ];
 
+const plotterOf = async ({ server }: PageTest): Promise<Plotter> =>
+  snapshotSchema.parse(await (await fetch(`${server.url}/api/v1/state`)).json()).plotters[0];
+
 describe.each(NEW)("a new $machine", ({ machine, firmware, homesItself, clicks }) => {
   const { name } = machineById(machine);
   let board: PtyBoard;
@@ -45,8 +48,7 @@ describe.each(NEW)("a new $machine", ({ machine, firmware, homesItself, clicks }
   const guide = () => test.page.getByRole("region", { name: "First plot with this plotter" });
   const press = (label: string) =>
     guide().getByRole("button", { name: label, exact: true }).and(test.page.locator(":enabled")).click();
-  const plotter = async (): Promise<Plotter> =>
-    snapshotSchema.parse(await (await fetch(`${test.server.url}/api/v1/state`)).json()).plotters[0];
+  const plotter = () => plotterOf(test);
 
   it("is chosen by its picture, and a step is ticked only when it is done", async () => {
     const question = guide().getByRole("group", { name: "Which plotter is this?" });
@@ -113,6 +115,76 @@ describe.each(NEW)("a new $machine", ({ machine, firmware, homesItself, clicks }
     await page.keyboard.press("Escape");
     await next.getByRole("button", { name: "Hide these measurements" }).click();
     await next.waitFor({ state: "detached" });
+    expect(test.complaints).toEqual([]);
+  });
+});
+
+describe("a new plotter, by keyboard alone", () => {
+  let board: PtyBoard;
+  let test: PageTest;
+
+  beforeAll(async () => {
+    board = await PtyBoard.open({ machine: "axidraw-v3", firmware: "2.8.1", speed: 20 });
+    test = await PageTest.firstVisit("first-plot-keys", {}, ["--device", board.path]);
+  });
+  afterAll(async () => {
+    await test.close();
+    await board.close();
+  });
+
+  const focused = (): Promise<string> =>
+    test.page.evaluate(() => {
+      const element = document.activeElement;
+      if (!element || element === document.body) return "nothing";
+      const label = (element as HTMLInputElement).labels?.[0]?.textContent;
+      return (element.getAttribute("aria-label") ?? label ?? element.textContent ?? "").trim();
+    });
+  /** Presses Tab until a control whose name begins so has the focus. */
+  const tabTo = async (name: string): Promise<void> => {
+    for (let stops = 0; stops < 60; stops++) {
+      if ((await focused()).startsWith(name)) return;
+      await test.page.keyboard.press("Tab");
+    }
+    throw new Error(`Tab did not reach "${name}": ${await focused()} has the focus`);
+  };
+  const enter = async (name: string): Promise<void> => {
+    await tabTo(name);
+    await test.page.keyboard.press("Enter");
+  };
+  const ticks = () =>
+    test.page.getByRole("region", { name: "First plot with this plotter" }).locator("li[data-done]").count();
+  const plotter = () => plotterOf(test);
+
+  it("gets its model, its corner, its heights and a test mark, and draws its first plot", async () => {
+    const { page } = test;
+    await page.getByRole("group", { name: "Which plotter is this?" }).waitFor();
+    await enter("AxiDraw V3");
+    await expect.poll(ticks).toBe(1);
+    // Each step leaves the focus where the next one follows, never on nothing.
+    await expect.poll(focused).not.toBe("nothing");
+    await enter("Motors off");
+    await expect.poll(plotter).toMatchObject({ motorsOn: false, connection: "idle" });
+    await enter("The carriage is in its corner");
+    await expect.poll(ticks).toBe(2);
+    await expect.poll(focused).not.toBe("nothing");
+    await tabTo("Height down");
+    await page.keyboard.press("ArrowUp");
+    await enter("Pen down");
+    await expect.poll(ticks).toBe(3);
+    await expect.poll(focused).toBe("Pen down");
+    await enter("Draw a test line");
+    await expect.poll(ticks).toBe(4);
+    await tabTo("Hello");
+    await page.keyboard.press("Enter");
+    await test.planned();
+    // The sheet has the focus of the sample that is gone.
+    await expect.poll(focused).toMatch(/^Arrow keys move the paper/);
+    const plot = plotBar(page).getByRole("button", { name: "Plot", exact: true });
+    await plot.and(page.locator(":enabled")).waitFor();
+    await enter("Plot");
+    await expect
+      .poll(async () => (await test.jobs())[0]?.state, { timeout: 60_000 })
+      .toMatch(/plotting|done/);
     expect(test.complaints).toEqual([]);
   });
 });
