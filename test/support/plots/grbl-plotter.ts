@@ -1,7 +1,7 @@
 /** A plotter whose machine has a virtual Grbl, on a manual clock and over a connection that a test can disturb. */
 import { expect } from "vitest";
 import { PlotterConnection } from "../../../host/plotter/plotter-connection.js";
-import type { PlotStart } from "../../../host/plotter/plotter-port.js";
+import type { PlotStart, RunningPlot } from "../../../host/plotter/plotter-port.js";
 import { driver as grblDriver } from "../../../src/drivers/grbl/controller.js";
 import { VirtualGrbl } from "../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { VirtualGrblOptions } from "../../../src/drivers/grbl/virtual/virtual-settings.js";
@@ -129,6 +129,24 @@ export async function plotterOn(board: VirtualGrbl, world: ManualClock, machine:
     expect(driver.state.penUp).toBe(true);
   };
   return { driver, begin, within, line, kill, mustWork };
+}
+
+type GrblPlotter = Pick<
+  Awaited<ReturnType<typeof newPlotter>>,
+  "world" | "board" | "driver" | "line" | "within"
+>;
+
+/** Its cable is pulled out while the pen is down, and it is connected again. */
+export async function cutOff(
+  { world, board, driver, line, within }: GrblPlotter,
+  run: RunningPlot,
+): Promise<void> {
+  await world.advance(3);
+  expect(board.state().penUp).toBe(false);
+  line().unplug();
+  expect(await within(run.finished)).toMatch(/^disconnected/);
+  await world.advance(5);
+  expect(driver.state).toMatchObject({ connection: "idle", penUp: true });
 }
 
 export async function newMachine(options: VirtualGrblOptions = {}) {

@@ -6,7 +6,7 @@ import { driver as grblDriver } from "../../../../src/drivers/grbl/controller.js
 import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { planJob } from "../../../../src/index.js";
 import { GRBL, NO_EVENTS } from "../../../support/machines/machine.js";
-import { LIMIT_S, newPlotter, SETTINGS } from "../../../support/plots/grbl-plotter.js";
+import { cutOff, LIMIT_S, newPlotter, SETTINGS } from "../../../support/plots/grbl-plotter.js";
 import { DRAWING, expectDrawn } from "../../../support/plots/live-plot.js";
 import { LocalPlanner } from "../../../support/plots/local-planner.js";
 import { ManualClock } from "../../../support/clocks/manual-clock.js";
@@ -177,15 +177,9 @@ describe.each([
   }
 
   it("is lifted to its height if the Grbl was not restarted", async () => {
-    const { world, board, driver, begin, line, within } = await plotter();
-    const run = await begin();
-    await world.advance(3);
-    expect(board.state().penUp).toBe(false);
-    line().unplug();
-    expect(await within(run.finished)).toMatch(/^disconnected/);
-    await world.advance(5);
-    expect(driver.state).toMatchObject({ connection: "idle", penUp: true });
-    expect(board.state().zMm).toBeCloseTo(upMm, 3);
+    const all = await plotter();
+    await cutOff(all, await all.begin());
+    expect(all.board.state().zMm).toBeCloseTo(upMm, 3);
   });
 
   it("is lifted by its travel if the Grbl was restarted, and has the right heights again", async () => {
