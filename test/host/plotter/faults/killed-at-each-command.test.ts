@@ -113,3 +113,17 @@ describe.each(WAYS)(
     );
   },
 );
+
+describe("a resumed plot that is killed as its pen comes down", () => {
+  it("resumes at the same place, wherever it came from and whatever is drawn there later", () => {
+    const strokes = strokesOf([10, 20, 50, 20], [19.85, 10, 19.85, 30]);
+    const from = { stroke: 0, alongMm: 10 };
+    const penDown = (x: number, y: number): StrokePosition => {
+      const machine = { foundMidPlot: { penUp: false }, speed: 1, positionMm: () => ({ x, y }) };
+      return resumePosition(machine, strokes, penSettings("fast"), [], { from });
+    };
+    expect(penDown(19.85, 19.75)).toEqual(from);
+    // Farther away than the pen comes down: it draws already.
+    expect(penDown(21, 20).alongMm).toBeCloseTo(11, 6);
+  });
+});
