@@ -48,11 +48,8 @@ export interface ControllerDescription {
 /** One of several groups of fields that a profile has, such as the ways to lift a pen. */
 export interface ControllerChoice {
   readonly label: string;
-  /** `fields`: with the values to begin with. The first one tells which option a profile has. */
-  readonly options: readonly {
-    readonly label: string;
-    readonly fields: Readonly<Record<string, number | string>>;
-  }[];
+  /** `fields`: their names. The first one tells which option a profile has. */
+  readonly options: readonly { readonly label: string; readonly fields: readonly string[] }[];
 }
 
 export interface Driver {

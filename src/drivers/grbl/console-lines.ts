@@ -10,10 +10,7 @@ const WHY_NOT: readonly (readonly [pattern: RegExp, why: string])[] = [
     "the Grbl would wait for a resume, which cannot be sent from here. For a wait, send G4P and the seconds",
   ],
   [/^\$SLP$/, "the Grbl would not answer until it is reset. Switch the motors off on the page instead"],
-  [
-    /^\$H/,
-    "the Grbl does not answer while it seeks its switches. Home the machine on the page instead; its profile must say that it finds home",
-  ],
+  [/^\$H/, "the Grbl does not answer while it seeks its switches. Home the machine on the page instead"],
   [/^\$C$/, "the Grbl would accept lines and not move. To check a drawing, look at its preview instead"],
 ];
 

@@ -294,6 +294,7 @@ describe("the profile of a Grbl machine", () => {
     await button("Edit My Z", sheet).click();
     await sheet.getByRole("radio", { name: "Own lines" }).check();
     await sheet.getByLabel("Lines that lift the pen", { exact: true }).fill("M3 S90\nG4 P0.2");
+    await sheet.getByLabel("Lines that lower the pen", { exact: true }).fill("M5");
     expect(await saved()).toMatchObject({ penUpLines: "M3 S90\nG4 P0.2", penUpS: null });
     await button("Remove My Z", sheet).click();
     await button("Edit My Z", sheet).waitFor({ state: "detached" });

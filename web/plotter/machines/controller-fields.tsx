@@ -13,6 +13,10 @@ interface Props {
 
 const isGiven = (value: unknown): boolean => value !== null && value !== undefined;
 
+/** What a field begins with. */
+const startOf = (row: FieldRow): number | string =>
+  row.kind === "number" && typeof row.default === "number" ? row.default : "";
+
 /** The fields of a controller that has no form of its own, from its description. */
 export const ControllerFields = ({ profile, onChange }: Props) => {
   const { fields, choice } = controllerOf(profile);
@@ -20,9 +24,9 @@ export const ControllerFields = ({ profile, onChange }: Props) => {
   const change = (part: Readonly<Record<string, unknown>>): void =>
     onChange({ ...profile, controller: { ...controller, ...part } });
   const options = choice?.options ?? [];
-  const chosen = options.findIndex((option) => isGiven(controller[Object.keys(option.fields)[0]]));
-  const excluded = new Set(options.flatMap((option, i) => (i === chosen ? [] : Object.keys(option.fields))));
-  const own = new Set(Object.keys(options[chosen]?.fields ?? {}));
+  const chosen = options.findIndex((option) => isGiven(controller[option.fields[0]]));
+  const excluded = new Set(options.flatMap((option, i) => (i === chosen ? [] : option.fields)));
+  const own = new Set(options[chosen]?.fields);
   const rows = Object.entries(fields).filter(([key]) => own.has(key) || !excluded.has(key));
   const field = ([key, row]: readonly [string, FieldRow]) => (
     <Field
@@ -43,8 +47,9 @@ export const ControllerFields = ({ profile, onChange }: Props) => {
           value={String(chosen)}
           options={options.map(({ label }, i) => ({ value: String(i), label }))}
           onChange={(at) => {
-            const none = Object.fromEntries([...own, ...excluded].map((key) => [key, null]));
-            change({ ...none, ...options[Number(at)].fields });
+            const none = [...own, ...excluded].map((key) => [key, null] as const);
+            const begun = options[Number(at)].fields.map((key) => [key, startOf(fields[key])] as const);
+            change(Object.fromEntries([...none, ...begun]));
           }}
         />
       )}
@@ -80,7 +85,6 @@ const Field = ({ row, isChosen, value, onChange }: FieldProps) => {
       );
     case "number": {
       const isUsed = isGiven(value);
-      const start = typeof row.default === "number" ? row.default : row.min;
       const isLeftOut = row.isOptional === true && !isChosen;
       return (
         <>
@@ -88,14 +92,14 @@ const Field = ({ row, isChosen, value, onChange }: FieldProps) => {
             <Switch
               label={words.useField(row.label)}
               isOn={isUsed}
-              onChange={(isOn) => onChange(isOn ? start : null)}
+              onChange={(isOn) => onChange(isOn ? startOf(row) : null)}
             />
           )}
           {(isUsed || !isLeftOut) && (
             <NumberField
               label={row.label}
               hint={row.about}
-              value={typeof value === "number" ? value : start}
+              value={typeof value === "number" ? value : row.min}
               unit={row.unit}
               min={row.min}
               max={row.max}

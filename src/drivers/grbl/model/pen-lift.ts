@@ -8,7 +8,7 @@ import type { Controller, MachineProfile, PenServo } from "../../../machines/pro
 import { PEN_TABLE } from "../../../settings/pen.js";
 import type { ControllerChoice } from "../../driver.js";
 import { whyRefused } from "../console-lines.js";
-import { dwellS, GRBL_FIELDS, grblOf, type GrblController } from "./grbl-controller.js";
+import { dwellS, grblOf, type GrblController } from "./grbl-controller.js";
 import { moveTimeS, type GrblAxisLimits } from "./planner.js";
 
 export interface PenLift {
@@ -40,20 +40,9 @@ const AT_ONCE: PenServo = {
 export const LIFT_CHOICE: ControllerChoice = {
   label: "The pen is lifted by",
   options: [
-    {
-      label: "Servo (M3 S)",
-      fields: { penUpS: GRBL_FIELDS.penUpS.default, penDownS: GRBL_FIELDS.penDownS.default },
-    },
-    {
-      label: "Z axis",
-      fields: {
-        penUpZMm: GRBL_FIELDS.penUpZMm.default,
-        penDownZMm: GRBL_FIELDS.penDownZMm.default,
-        penSpeedMmPerS: GRBL_FIELDS.penSpeedMmPerS.default,
-        penAccelMmPerS2: GRBL_FIELDS.penAccelMmPerS2.default,
-      },
-    },
-    { label: "Own lines", fields: { penUpLines: "M3 S600", penDownLines: "M3 S300" } },
+    { label: "Servo (M3 S)", fields: ["penUpS", "penDownS"] },
+    { label: "Z axis", fields: ["penUpZMm", "penDownZMm", "penSpeedMmPerS", "penAccelMmPerS2"] },
+    { label: "Own lines", fields: ["penUpLines", "penDownLines"] },
   ],
 };
 

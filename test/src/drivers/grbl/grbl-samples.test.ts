@@ -54,7 +54,7 @@ const linesOf = ({ xy, offsets }: StrokeSet): Float64Array[] =>
 describe.each(SAMPLES.slice(0, IS_FULL ? undefined : 1))("%s", (name) => {
   it.each(GRBLS)(
     "is drawn within 0.05 mm and 1 % of the time on %s",
-    { timeout: 300_000 },
+    { timeout: 600_000 },
     async (_, options, mostStarved) => {
       const strokes = await sampleStrokes(name);
       const { world, board, driver, begin, line } = await newPlotter(options);
