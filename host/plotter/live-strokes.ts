@@ -374,6 +374,9 @@ export class LiveStrokes {
 export const liveEnded = (): PlotwrightError =>
   new PlotwrightError("conflict", "This live drawing has ended: begin another one.");
 
+export const liveStopped = (): PlotwrightError =>
+  new PlotwrightError("cancelled", "The live drawing was stopped.");
+
 /** Throws `out-of-bounds` unless a machine reaches all points. */
 export function mustReach(xy: ArrayLike<number>, machine: DrawnMachine): void {
   for (let i = 0; i < xy.length; i += 2) {

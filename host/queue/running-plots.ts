@@ -13,7 +13,7 @@ import {
   type PlotWait,
 } from "../../src/schema/index.js";
 import { isOtherBoard } from "../plotter/board-id.js";
-import { liveEnded, livePlanner, type LiveStrokes } from "../plotter/live-strokes.js";
+import { liveEnded, livePlanner, liveStopped, type LiveStrokes } from "../plotter/live-strokes.js";
 import type {
   RunningPlot,
   PlotOutcome,
@@ -112,8 +112,8 @@ export class RunningPlots {
 
   /** Starts an interrupted or cancelled job at its place, held: nothing moves until it is resumed. */
   recover(id: string): Job {
-    const { place: from, ...recovered } = this.jobs.get(id);
-    const plotter = this.freePlotter(recovered);
+    const { place: from } = this.jobs.get(id);
+    const plotter = this.freePlotter(this.jobs.get(id));
     const { board } = this.journals.of(id) ?? {};
     const found = plotter.snapshot();
     const job = this.jobs.apply(
@@ -247,7 +247,7 @@ export class RunningPlots {
         : { kind: "failed", error: error instanceof Error ? error : new Error(String(error)) };
     });
     running.run = null;
-    running.live?.fail(end.kind === "failed" ? end.error : end.kind === "done" ? liveEnded() : stoppedLive());
+    running.live?.fail(end.kind === "failed" ? end.error : end.kind === "done" ? liveEnded() : liveStopped());
     this.safely(running.job.id, () => this.ended(running, end));
   }
 
