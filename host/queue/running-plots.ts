@@ -55,8 +55,6 @@ interface Running {
 }
 const MAX_NOTES = 5;
 
-const stoppedLive = (): PlotwrightError => new PlotwrightError("cancelled", "The live drawing was stopped.");
-
 type PlotEnd = PlotOutcome | { readonly kind: "failed"; readonly error: Error };
 
 export class RunningPlots {
