@@ -26,6 +26,7 @@ const PROCESSES = ["test/e2e/**/*.test.ts", "test/packaging/**/*.test.ts", "test
 const POSIX_ONLY = [
   ...REAL_TIME,
   "test/e2e/plotter/first-plot.test.ts",
+  "test/e2e/plotter/hand-drawing.test.ts",
   "test/server/cli/virtual-pty.test.ts",
   "test/server/cli/moves.test.ts",
   "test/server/composition/process-ends.alone.test.ts",

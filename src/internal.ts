@@ -101,7 +101,7 @@ export { SPRINGS_TABLE } from "./settings/machine.js";
 export { STREAM_TABLE } from "./settings/machine.js";
 
 // prepare
-export { boxOfPoints, isEmptyBox, uniteBoxes, type Box } from "./geometry/box.js";
+export { boxOfPoints, insideRange, isEmptyBox, uniteBoxes, type Box } from "./geometry/box.js";
 export { isReached, unreachedCount } from "./prepare/on-paper.js";
 export {
   canBePaper,

@@ -21,7 +21,6 @@ export class LiveSession {
   private taken = 0;
   /** When the points came that are not drawn: how many there were then. */
   private readonly arrivals: { readonly points: number; readonly atMs: number }[] = [];
-  private lagMs = 0;
   private lastProgress = "";
   private timer: ReturnType<typeof setInterval> | null = null;
 
@@ -145,15 +144,13 @@ export class LiveSession {
     this.report({ type: "progress", ...progress });
   }
 
-  /** How long ago the last drawn point came. */
+  /** How long ago the first point came that is not drawn. */
   private measuredLagMs(): number {
     const { arrivals } = this;
     const { allDrawn, isAllDrawn } = this.live!.strokes;
-    let drawnCount = arrivals.findIndex(({ points }) => points > allDrawn);
-    if (drawnCount < 0) drawnCount = arrivals.length;
-    const [last] = arrivals.splice(0, drawnCount).slice(-1);
-    if (last !== undefined) this.lagMs = Math.round(Date.now() - last.atMs);
-    return isAllDrawn ? 0 : this.lagMs;
+    const next = arrivals.findIndex(({ points }) => points > allDrawn);
+    arrivals.splice(0, next < 0 ? arrivals.length : next);
+    return isAllDrawn || arrivals.length === 0 ? 0 : Math.round(Date.now() - arrivals[0].atMs);
   }
 
   /** Points that were taken back will not be drawn. */

@@ -48,6 +48,7 @@ export const PAGE_GROUPS: readonly PageGroup[] = [
     pages: [
       page("docs/grbl.md", "Grbl machines"),
       page("docs/sheets.md", "Several drawings, large drawings"),
+      page("docs/hand-drawing.md", "Draw by hand"),
       page("docs/recipes.md", "From every tool"),
       page("docs/config-examples.md", "Config files"),
       page("docs/brushless-servo.md", "Brushless servo"),

@@ -22,6 +22,8 @@ export interface GestureTarget {
   nudge(rightMm: number, downMm: number): boolean;
   /** A press without a drag; `isMore`: with Shift, Ctrl or Command held. */
   tap(at: Point, isMore: boolean): void;
+  /** On a sheet that is drawn on: takes each event of a pointer. False: the pointer does not draw, and moves the sheet. */
+  draws?(event: PointerEvent, placeOf: (event: MouseEvent) => Point): boolean;
 }
 
 export interface Drag {
@@ -57,7 +59,8 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
     if (event.button > 1) return;
     element.setPointerCapture(event.pointerId);
     const at = placeOf(event);
-    if (pointers.size === 0) {
+    if (target.draws?.(event, placeOf)) hasMoved = true;
+    else if (pointers.size === 0) {
       downAt = at;
       hasMoved = false;
       drag = target.grab(at, event.pointerType === "touch");
@@ -80,6 +83,7 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
     hasMoved ||= Math.hypot(now.x - downAt.x, now.y - downAt.y) > TAP_PX;
     const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1];
     pointers.set(event.pointerId, now);
+    if (target.draws?.(event, placeOf)) return;
     if (other) target.setView(pinched(target.view(), before, now, other));
     else if (!hasMoved) return;
     else if (drag) drag.to(now.x - downAt.x, now.y - downAt.y, event.altKey || event.ctrlKey);
@@ -87,6 +91,7 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
   };
 
   const onUp = (event: PointerEvent): void => {
+    if (target.draws?.(event, placeOf)) hasMoved = true;
     if (pointers.size === 1 && !hasMoved && event.type === "pointerup") {
       target.tap(placeOf(event), event.shiftKey || event.ctrlKey || event.metaKey);
     }
@@ -128,7 +133,7 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
   element.addEventListener("pointercancel", onUp, { signal });
   element.addEventListener("pointerleave", () => target.hover(null), { signal });
   element.addEventListener("wheel", onWheel, { signal, passive: false });
-  element.addEventListener("dblclick", target.fit, { signal });
+  if (!target.draws) element.addEventListener("dblclick", target.fit, { signal });
   element.addEventListener("keydown", onKey, { signal });
   return () => stop.abort();
 };

@@ -1,4 +1,4 @@
-import type { Job } from "../../src/schema/index.js";
+import { isLiveJob, type Job } from "../../src/schema/index.js";
 import { penWait, shownView } from "../state/store.js";
 import { useIsConnected, usePageState } from "../state/use-store.js";
 import { jobText, queueText } from "./text.js";
@@ -18,7 +18,8 @@ export const RunningJob = ({ job }: { job: Job }) => {
   return (
     <article className="job job-active" data-state={stateOf(job)}>
       <div className="job-row">
-        <Thumb of="job" id={job.id} />
+        {/* The picture of a drawing that still grows is not the one of the whole. */}
+        <Thumb of="job" id={job.id} changedAt={isLiveJob(job) ? "growing" : ""} />
         <JobName job={job} />
         <StateBadge job={job} />
       </div>

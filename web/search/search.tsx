@@ -7,6 +7,7 @@ import { Dialog } from "../ui/dialog.js";
 import { Icon } from "../ui/icon.js";
 import { FIELDS } from "./fields.js";
 import { goToField } from "./focus-field.js";
+import { DRAW } from "../watch/draw-action.js";
 import { searchText as words } from "./text.js";
 import "./search.css";
 
@@ -62,7 +63,7 @@ export const Search = ({ actions }: { actions: readonly PageAction[] }) => {
   const [chosen, setChosen] = useState(0);
   const id = useId();
   const found = useMemo(
-    () => bestMatches(typed, [...actionEntries(actions, page), ...fieldEntries(page)]),
+    () => bestMatches(typed, [...actionEntries([...actions, DRAW], page), ...fieldEntries(page)]),
     // The entries depend on the whole state.
     // eslint-disable-next-line react-hooks/exhaustive-deps
     [typed, actions, page, state],

@@ -27,6 +27,8 @@ const viewSchema = z.object({
   deskTurn: z.number().int().min(0).max(3),
   /** The unit of lengths in fields and on rulers. */
   lengthUnit: z.enum(LENGTH_UNITS),
+  /** Of lines drawn on the page: 0 is as the hand drew them. */
+  smoothingPct: z.number().min(0).max(100),
   /** Ids of the open groups of settings. */
   openGroups: z.array(z.string().max(50)).max(50),
   /** Address of the camera's picture; empty: no camera. */
@@ -48,6 +50,7 @@ export const DEFAULT_VIEW: ViewSettings = {
   theme: "auto",
   deskTurn: 0,
   lengthUnit: "mm",
+  smoothingPct: 40,
   openGroups: [],
   cameraUrl: "",
   cameraEveryS: 0,

@@ -1,5 +1,5 @@
 import { useEffect, useState } from "react";
-import { withOffs, type Job, type MovePlace, type PlotSettings } from "../../src/schema/index.js";
+import { isLiveJob, withOffs, type Job, type MovePlace, type PlotSettings } from "../../src/schema/index.js";
 import { KeepHeights, NudgeJob } from "../plotter/hand/pen-nudge.js";
 import { jobText as words } from "../queue/text.js";
 import { activeJob, mayOperate, penOf, penWait, type PageState } from "../state/store.js";
@@ -40,7 +40,9 @@ export const Adjust = () => {
       <h2 className="card-title">{watchText.adjust}</h2>
       <NudgeJob job={job} />
       <KeepHeights job={job} />
-      {job.state === "paused" && !isWaiting && job.place && <PlaceControls job={job} place={job.place} />}
+      {job.state === "paused" && !isWaiting && !isLiveJob(job) && job.place && (
+        <PlaceControls job={job} place={job.place} />
+      )}
       {!isWaiting && <LiveChanges job={job} />}
     </section>
   );

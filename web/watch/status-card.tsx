@@ -12,6 +12,8 @@ import { useIsConnected, usePageState } from "../state/use-store.js";
 import { Icon } from "../ui/icon.js";
 import { formatClockIn, formatDuration, formatPercent } from "../ui/format.js";
 import { useNow } from "../ui/use-now.js";
+import { ActionButton } from "../ui/action-button.js";
+import { DRAW } from "./draw-action.js";
 import { layerNow } from "./watch-look.js";
 import { watchText as words } from "./text.js";
 
@@ -31,7 +33,12 @@ export const StatusCard = ({ job }: { job: Job }) => {
       </div>
       <div className="status-actions">
         {isActive && (wait ? <PenWait job={job} wait={wait} /> : <JobButtons job={job} />)}
-        {job.state === "done" ? <DoneButtons job={job} /> : !isActive && <EndedButtons job={job} />}
+        {!isActive && (
+          <div className="button-row status-ended">
+            {job.state === "done" ? <DoneButtons job={job} /> : <EndedButtons job={job} />}
+            <DrawButton />
+          </div>
+        )}
       </div>
       <div className="status-below">
         {job.state !== "queued" && job.state !== "done" && <Progress job={job} />}
@@ -42,6 +49,9 @@ export const StatusCard = ({ job }: { job: Job }) => {
     </>
   );
 };
+
+/** Opens drawing by hand. */
+export const DrawButton = () => <ActionButton action={DRAW} hint={words.drawHint} />;
 
 const Figures = ({ job }: { job: Job }) => {
   const nowMs = useNow();

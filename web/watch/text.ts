@@ -6,6 +6,8 @@ export const watchText = {
   nothing: "Nothing is being plotted.",
   nothingHint: "A plot shows here from its first stroke to its last.",
   toPrepare: "Prepare a drawing",
+  draw: "Draw",
+  drawHint: "With a finger, a stylus or the mouse on the sheet: the plotter follows.",
   left: "left",
   lastSeen: (share: string) => `Last seen ${share}`,
   lastSeenHint: "The plotter may still be drawing.",

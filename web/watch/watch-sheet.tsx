@@ -132,7 +132,7 @@ const Nothing = () => {
 };
 
 /** For a tablet beside the plotter: shows only the status, the sheet and the camera, and keeps the screen on. */
-const FullScreenButton = () => {
+export const FullScreenButton = () => {
   const store = usePageStore();
   const isFull = usePageState((state) => state.isFullScreen);
   useEffect(() => {

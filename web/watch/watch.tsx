@@ -4,7 +4,7 @@ import { useActions, useBackend, useIsConnected, usePageState, usePageStore } fr
 import { Button } from "../ui/button.js";
 import { Notices } from "../ui/notices.js";
 import { stateOf } from "../queue/job-head.js";
-import { StatusCard } from "./status-card.js";
+import { DrawButton, StatusCard } from "./status-card.js";
 import { watchText as words } from "./text.js";
 import { WatchSheet } from "./watch-sheet.js";
 import { ENDED_STATES, type Job } from "../../src/schema/index.js";
@@ -16,8 +16,15 @@ import "./watch.css";
 
 const Timelapse = lazyPart(async () => (await import("./timelapse.js")).Timelapse);
 
-/** The running plot, or the last one: its progress and its sheet. */
+const DrawMode = lazyPart(async () => (await import("./hand-drawing/draw-mode.js")).DrawMode);
+
 export const Watch = () => {
+  const isDrawing = usePageState(({ handDrawing }) => handDrawing !== null);
+  return isDrawing ? <DrawMode /> : <WatchedPlot />;
+};
+
+/** The running plot, or the last one: its progress and its sheet. */
+const WatchedPlot = () => {
   const job = usePageState(watchedJob);
   const hasPictures = useBackend().features.sharing;
   usePlan();
@@ -58,7 +65,10 @@ const NothingCard = () => {
       </div>
       {!isWatcher && (
         <div className="status-actions">
-          <Button onClick={() => showView("prepare")}>{words.toPrepare}</Button>
+          <div className="button-row">
+            <Button onClick={() => showView("prepare")}>{words.toPrepare}</Button>
+            <DrawButton />
+          </div>
         </div>
       )}
     </>

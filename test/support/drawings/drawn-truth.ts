@@ -54,6 +54,14 @@ export function compareDrawn(strokes: StrokeSet, drawn: readonly Drawn[], beside
   return { gapMm: longestGap(rail, covered), overlapMm: sum(intervals) - sum(covered), awayMm };
 }
 
+/** The largest distance of a point from the strokes, mm; `xy`: x, y, x, y … */
+export function farthestFrom(strokes: StrokeSet, xy: ArrayLike<number>): number {
+  const rail = railOf(strokes);
+  let awayMm = 0;
+  for (let i = 0; i < xy.length; i += 2) awayMm = Math.max(awayMm, nearest(rail, xy[i], xy[i + 1]).awayMm);
+  return awayMm;
+}
+
 /** All strokes one after the other, along one axis. */
 interface Piece {
   readonly stroke: number;

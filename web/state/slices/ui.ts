@@ -18,6 +18,37 @@ export interface WatchPlan {
   readonly fault: string | null;
 }
 
+/** A drawing that is made on the page while the plotter draws it. */
+export interface HandDrawingState {
+  /** "ready": strokes can be drawn; "finishing": the pen draws the rest; "broken": `fault` says why it has ended. */
+  readonly phase: "ready" | "finishing" | "broken";
+  /** Null until the first stroke. */
+  readonly jobId: string | null;
+  /** How long ago the line was drawn on the page that the pen draws now, s. */
+  readonly lagS: number;
+  /** Length that is not drawn yet. */
+  readonly waitingMm: number;
+  /** The pen is so far behind that no stroke can begin. */
+  readonly isBehind: boolean;
+  /** Something was not taken because of that. */
+  readonly hasRefused: boolean;
+  /** A part of the last stroke lay beside the paper. */
+  readonly hasLeftPaper: boolean;
+  readonly canUndo: boolean;
+  readonly fault: string | null;
+  readonly pen: HandPen;
+}
+
+export interface HandPen {
+  /** Takes back the last stroke, as far as the pen has not drawn it. */
+  undo(): Promise<void>;
+  /** The plotter draws the rest. */
+  finish(): void;
+  /** Opens the whole drawing in Prepare. */
+  keep(): void;
+  leave(): void;
+}
+
 /** Asked when the user presses something that only the operator may do. */
 interface TakeOverQuestion {
   readonly operator: string | null;
@@ -45,6 +76,8 @@ export interface UiSlice {
   /** The last job that had the plotter: Watch shows it while none is running. */
   readonly watchedId: string | null;
   readonly watchPlan: WatchPlan | null;
+  /** While drawing by hand is open, a mode of Watch; "opening": this part of the page is being loaded. */
+  readonly handDrawing: HandDrawingState | "opening" | null;
   /** Watch fills the screen. */
   readonly isFullScreen: boolean;
   readonly openDialog: DialogName | null;
@@ -58,6 +91,7 @@ export const UI_AT_FIRST = {
   watchPanel: "queue",
   watchedId: null,
   watchPlan: null,
+  handDrawing: null,
   isFullScreen: false,
   openDialog: null,
   takeOverQuestion: null,

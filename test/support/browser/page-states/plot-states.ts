@@ -1,5 +1,6 @@
 /** The queue, a plot under way, and plots that ended. */
 import { ruledSheet } from "../../drawings/drawings.js";
+import { DrawnSheet, mouseOf } from "../hand-input.js";
 import { historyPanel, openPanel, openView, plotBar, queuePanel, statusCard } from "../page-actions.js";
 import { type PageState, button, lay, sampleText, start, TWO_PENS } from "./page-state.js";
 
@@ -141,6 +142,21 @@ export const PLOT_STATES: readonly PageState[] = [
       await historyPanel(page).getByText("Done").first().waitFor();
       await page.getByRole("button", { name: "Show all finished plots" }).click();
       await page.getByRole("dialog", { name: "Gallery" }).locator(".thumb img").first().waitFor();
+    },
+  },
+  {
+    name: "48-drawing-by-hand",
+    isOnlyPlace: true,
+    virtualSpeed: 1,
+    reach: async ({ page }) => {
+      await openView(page, "Watch");
+      const sheet = await DrawnSheet.open(page, mouseOf(page));
+      await sheet.stroke((s) => [60 + 80 * s, 60 + 20 * Math.sin(9 * s)], 1);
+      await statusCard(page)
+        .getByText(/s behind/)
+        .waitFor();
+      await button(page, "Pause").click();
+      await button(page, "Resume").waitFor();
     },
   },
   {
