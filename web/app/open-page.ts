@@ -13,7 +13,6 @@ import { createPageStore } from "../state/store.js";
 import { saveFile } from "../ui/files/save-file.js";
 import { appName, errorText } from "../ui/text.js";
 import { openPlanner } from "../worker/planner.js";
-import { keepFocus } from "./kept-focus.js";
 import { listenForShortcuts } from "./shortcuts.js";
 
 const EXPORTED = {
@@ -70,7 +69,8 @@ export function openPage(): Page {
   keepRemembered(page, storage);
   keepDrawing(store, drawings, () => actions.notify("error", errorText.notKept));
   listenForShortcuts(page);
-  keepFocus();
+  // Not needed for the first view.
+  void import("./kept-focus.js").then(({ keepFocus }) => keepFocus()).catch(() => undefined);
   watchJobs(store, (sentence, { state }) => {
     // A waiting or interrupted job is shown on the page anyway, until the user answers.
     if (state === "done" || state === "failed") actions.notify(state === "done" ? "info" : "error", sentence);
