@@ -137,7 +137,8 @@ export function reportedPosition(
 
 /**
  * The first of these passes of a stroke; beside a corner, the side where the carriage is, and the first one in doubt. It
- * leaves a straight side only to round the corner. There, the side that it comes from or goes to is clearly nearer.
+ * leaves a straight side only to round the corner. There, the side that it comes from or goes to is clearly nearer. Where
+ * it is still far from the next side, a plot that resumed on that side would leave a gap between the two lines.
  *
  *   ━━━━━━━━━━━━━━━━━━━╮  a pass
  *              ━━━━━o━━╯  the next one: here is the carriage
@@ -149,7 +150,8 @@ function firstPass(passes: readonly Pass[], { nearMm, offLineMm }: MotionSince):
       const isNextSide = Math.ceil(pass.at) === Math.floor(found.until) + 2;
       const apartMm = pass.alongMm - found.alongMm;
       const isOnSide = pass.awayMm <= offLineMm && found.awayMm > offLineMm;
-      const isRounding = apartMm <= 2 * nearMm && found.awayMm > pass.awayMm + 2 * offLineMm;
+      const isNearer = pass.awayMm <= UNSEEN_MM && found.awayMm > pass.awayMm + 2 * offLineMm;
+      const isRounding = apartMm <= 2 * nearMm && isNearer;
       if (!isNextSide || apartMm <= UNSEEN_MM || !(isOnSide || isRounding)) return found;
     }
     found = pass;

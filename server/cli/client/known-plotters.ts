@@ -103,8 +103,8 @@ export async function knownPlotters(
 }
 
 /**
- * For a command that uses no plotter. With --plotter, or --preset, the settings are those of that plotter: a preset's are the
- * first plotter's that has it.
+ * For a command that uses no plotter. With --plotter, the settings are those of that plotter; with --preset alone, those of
+ * the first plotter that has a preset of that name.
  */
 export async function settingsByPlotter(options: OptionValues): Promise<FoundSettings> {
   const { plotter, preset } = options;

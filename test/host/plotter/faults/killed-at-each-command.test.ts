@@ -10,7 +10,7 @@ import { machineOf } from "../../../../src/internal.js";
 import { positionFromMotors } from "../../../../src/machines/motors.js";
 import { isPenUpBefore } from "../../../../src/plan/pen/pen-moves.js";
 import { estimatedPosition } from "../../../../src/position/pen-position.js";
-import { strokeLengthMm } from "../../../../src/position/on-drawing.js";
+import { pointAt, strokeLengthMm } from "../../../../src/position/on-drawing.js";
 import type { PlotSettings } from "../../../../src/schema/index.js";
 import { mmOf } from "../../../support/drawings/stop-truth.js";
 import { HOPS, penSettings } from "../../../support/machines/flying-pens.js";
@@ -53,6 +53,8 @@ interface Resumed {
   readonly penUp: boolean;
   /** Left out; negative: drawn twice. */
   readonly missingMm: number;
+  /** From the carriage to where the plot resumes. */
+  readonly apartMm: number;
 }
 
 /** Where the plot resumes after a stop behind each of its commands. */
@@ -74,7 +76,9 @@ function resumedAfterEach(strokes: StrokeSet, settings: PlotSettings, firmware: 
       const received = placeAt(Math.max(0, planS[i + 1] - agoS));
       const machine = { foundMidPlot: { penUp }, speed: 1, positionMm: () => at };
       const from = resumePosition(machine, strokes, settings, [], { from: received, received });
-      found.push({ stop, from, penUp, missingMm: mmOf(strokes, from) - mmOf(strokes, stop) });
+      const missingMm = mmOf(strokes, from) - mmOf(strokes, stop);
+      const { x, y } = pointAt(strokes, from);
+      found.push({ stop, from, penUp, missingMm, apartMm: Math.hypot(at.x - x, at.y - y) });
     }
   }
   return found;
@@ -113,6 +117,25 @@ describe.each(WAYS)(
     );
   },
 );
+
+describe.each(["2.8.1", "3.0.3"])("a plot on firmware %s that rounds corners by 0.5 mm", (firmware) => {
+  it.each([
+    ["blend", "corners", corners(47, 9)],
+    ["blend", "zigzags", zigzags(20, 4)],
+    ["scurve", "corners", corners(47, 9)],
+    ["scurve", "zigzags", zigzags(20, 4)],
+  ] as const)(
+    "leaves no gap in the line in mode %s, stopped after any command of sharp %s",
+    (mode, _, strokes) => {
+      const { motion, ...settings } = penSettings("off");
+      const draw = { ...motion.draw, cornerMm: 0.5 };
+      const found = resumedAfterEach(strokes, { ...settings, motion: { ...motion, mode, draw } }, firmware);
+      expect(found.length).toBeGreaterThan(400);
+      // Along a rounded corner the plan is shorter than the drawing.
+      expect(found.filter((one) => one.missingMm > UNSEEN_MM && one.apartMm > UNSEEN_MM)).toEqual([]);
+    },
+  );
+});
 
 describe("a resumed plot that is killed as its pen comes down", () => {
   it("resumes at the same place, wherever it came from and whatever is drawn there later", () => {
