@@ -1,4 +1,5 @@
 /** Positions and times of a plan: what is drawn at a time, when a position is drawn, when the carriage is at a point. */
+import type { StrokeSet } from "../drawing/stroke-set.js";
 import { firstWhere } from "../geometry/binary-search.js";
 import { likeliestPass, passesOf } from "../geometry/passes.js";
 import {
@@ -8,6 +9,7 @@ import {
   type StrokePosition,
   type Trajectory,
 } from "../plan/trajectory.js";
+import { strokeLengthMm } from "./on-drawing.js";
 
 /** The first place still to be drawn at `planS`, where the carriage is at rest; null if everything is drawn. */
 export function nextPosition(trajectory: Trajectory, planS: number): StrokePosition | null {
@@ -19,6 +21,12 @@ export function nextPosition(trajectory: Trajectory, planS: number): StrokePosit
     return { stroke: runs.stroke[run], alongMm: isDot ? 0 : trajectory.alongMm[block] };
   }
   return null;
+}
+
+/** The end of a plan's last stroke: for a stop when only the travel home is left. Null for a plan without strokes. */
+export function endOfPlan(strokes: StrokeSet, { runs }: Trajectory): StrokePosition | null {
+  const stroke = runs.stroke.reduce((last, one) => Math.max(last, one), -1);
+  return stroke < 0 ? null : { stroke, alongMm: strokeLengthMm(strokes, stroke) };
 }
 
 /** Interval between the points of a plan that are compared with a point: the line between them bends by micrometres. */

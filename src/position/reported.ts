@@ -98,11 +98,14 @@ export function reportedPosition(
     to: startOf(stroke),
   });
 
-  // On its way to the stroke. At the end of the stroke before, the pen may still be down.
+  // On its way to the stroke, at a stop by way of home. At the end of the stroke before, the pen may still be down.
   if (received.alongMm === 0) {
-    const travel = travelTo(received.stroke);
-    const isBefore = pen.up ? awayFromLine(travel, pen) <= nearMm : distance(travel.from, pen) <= offLineMm;
-    if (isBefore) return received;
+    const { stroke } = received;
+    const ways = [travelTo(stroke)];
+    if (stroke > 0 && stops.includes(stroke)) ways.push({ from: endOf(stroke - 1), to: HOME });
+    const isOn = (way: Travel): boolean =>
+      pen.up ? awayFromLine(way, pen) <= nearMm : distance(way.from, pen) <= offLineMm;
+    if (ways.some(isOn)) return received;
   }
 
   // mm and positions along the plan differ slightly from those along the drawing.

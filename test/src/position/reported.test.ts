@@ -277,6 +277,15 @@ describe("the place where a plot was interrupted", () => {
     });
   });
 
+  it("is the received stroke after a change of pens if the pen is still on the way home before it", () => {
+    const strokes = strokesOf([10, 20, 20, 20], [50, 10, 40, 40], [60, 10, 60, 20]);
+    const withStops = { ...since, stops: [1, 2] };
+    const begun = { stroke: 1, alongMm: 0 };
+    // The way home before the last stroke, from (40, 40), passes there too.
+    for (const mm of [0, 5, 10, 20])
+      expect(reportedPosition(strokes, begun, { x: mm, y: mm, up: true }, withStops)).toEqual(begun);
+  });
+
   it("is the received stroke if the pen is still on its way to it, or at the end of the one before", () => {
     const strokes = strokesOf([5, 0, 10, 0], [40, 0, 50, 0, 50, 5, 40, 0], [35, 5, 36, 5], [15, -5, 10, -5]);
     const begun = { stroke: 1, alongMm: 0 };

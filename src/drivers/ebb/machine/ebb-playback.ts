@@ -14,7 +14,7 @@ import { isPenUpBefore, penMoveBefore, penMoveColumns, penMovesOf } from "../../
 import { reseatWaitS } from "../../../plan/pen/pen-times.js";
 import type { StrokePosition, Trajectory } from "../../../plan/trajectory.js";
 import { strokeLengthMm } from "../../../position/on-drawing.js";
-import { passOf } from "../../../position/on-plan.js";
+import { endOfPlan, passOf } from "../../../position/on-plan.js";
 import { drawnPosition, estimatedPosition, stoppedPosition } from "../../../position/pen-position.js";
 import { sameMotionS } from "../../../position/same-motion.js";
 import type { Playback, PlaybackGrowth, PlaceAhead, PlaybackEvents, PlaybackRequest } from "../../driver.js";
@@ -383,15 +383,9 @@ export class EbbPlayback implements Playback, PlaybackGrowth {
     return stop ? (stop.place ?? this.afterPart(stop.pass.span.part)) : this.certain;
   }
 
-  /** The first place still to be drawn when a part is drawn; at the end of the plot, the end of the last stroke. */
+  /** The first place still to be drawn when a part is drawn; at the end of the plan, the end of its last stroke. */
   private afterPart({ next, trajectory }: EbbPart): StrokePosition | null {
-    return next ?? this.endOf(trajectory);
-  }
-
-  /** The end of the last stroke: for a stop when everything is drawn and only the travel home is left. */
-  private endOf({ runs }: Trajectory): StrokePosition | null {
-    const stroke = runs.stroke.reduce((last, one) => Math.max(last, one), -1);
-    return stroke < 0 ? this.progress.place : { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
+    return next ?? endOfPlan(this.strokes, trajectory) ?? this.progress.place;
   }
 
   // These two are methods because TypeScript does not know that events may set `stopped` during `play`.

@@ -2,14 +2,13 @@
  * One plot on a Grbl. A stop clears Grbl's queue, so the rest is planned again from the reported position. A Grbl cannot
  * switch to another plan in motion.
  */
-import { strokeCount, type StrokeSet } from "../../../drawing/stroke-set.js";
+import type { StrokeSet } from "../../../drawing/stroke-set.js";
 import { PlotwrightError } from "../../../errors.js";
 import { passesOf } from "../../../geometry/passes.js";
 import { machineOf } from "../../../machines/profiles.js";
 import { penMovesOf } from "../../../plan/pen/pen-moves.js";
 import { stateAt, type StrokePosition, type Trajectory } from "../../../plan/trajectory.js";
-import { strokeLengthMm } from "../../../position/on-drawing.js";
-import { passOf } from "../../../position/on-plan.js";
+import { endOfPlan, passOf } from "../../../position/on-plan.js";
 import { drawnPosition, estimatedPosition } from "../../../position/pen-position.js";
 import type { Machine, Playback, PlaybackEvents, PlaybackRequest } from "../../driver.js";
 import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
@@ -72,7 +71,7 @@ export class GrblPlayback implements Playback {
     const { plot, stream } = this.current;
     const planS = stream.receivedS;
     if (planS === null || planS <= firstStrokeS(plot.trajectory)) return undefined;
-    return estimatedPosition(plot.trajectory, planS) ?? this.endOfDrawing();
+    return estimatedPosition(plot.trajectory, planS) ?? endOfPlan(this.strokes, plot.trajectory) ?? undefined;
   }
 
   now(): PlotProgress | null {
@@ -168,13 +167,7 @@ export class GrblPlayback implements Playback {
     // After missed lines the carriage is not at the position from which to draw.
     const carriage = planS < pass.planS ? stateAt(trajectory, planS) : at;
     const position = drawnPosition(strokes, trajectory, planS, carriage);
-    return position ?? (this.isEmergency ? this.endOfDrawing() : null);
-  }
-
-  /** The end of the last stroke: for an emergency stop when only the travel home is left. */
-  private endOfDrawing(): StrokePosition {
-    const stroke = strokeCount(this.strokes) - 1;
-    return { stroke, alongMm: strokeLengthMm(this.strokes, stroke) };
+    return position ?? (this.isEmergency ? (endOfPlan(strokes, trajectory) ?? progress.place) : null);
   }
 
   // A method because TypeScript does not know that events may set `stopped` during `play`.

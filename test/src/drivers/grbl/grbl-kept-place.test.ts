@@ -3,13 +3,14 @@
  * 0.05 mm, and nothing is left out. If it loses its position, nothing is left out either.
  */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry } from "../../../../host/plotter/plotter-port.js";
+import type { JournalEntry, RunningPlot } from "../../../../host/plotter/plotter-port.js";
 import type { VirtualGrblOptions } from "../../../../src/drivers/grbl/virtual/virtual-settings.js";
+import type { PlotSettings } from "../../../../src/schema/index.js";
 import { compareDrawn } from "../../../support/drawings/drawn-truth.js";
 import { FAULT_DRAWING } from "../../../support/plots/faulty-plots.js";
-import { newPlotter, plotterOn } from "../../../support/plots/grbl-plotter.js";
+import { newPlotter, plotterOn, SETTINGS } from "../../../support/plots/grbl-plotter.js";
 import { seeded } from "../../../support/plots/live-plot.js";
-import { LocalPlanner } from "../../../support/plots/local-planner.js";
+import { layeredStrokes, LocalPlanner } from "../../../support/plots/local-planner.js";
 import { cases } from "../../../support/runs/full-run.js";
 
 const MOST_MM = 0.05;
@@ -27,11 +28,17 @@ const FACES: readonly VirtualGrblOptions[] = [
 type How = "killed" | "unplugged" | "killed while it pauses" | "killed, and the Grbl is reset";
 
 /** Interrupts a plot after `atS`, and resumes it by a new process, or after the cable is back. */
-async function interrupted(how: How, options: VirtualGrblOptions, atS: number) {
+async function interrupted(
+  how: How,
+  options: VirtualGrblOptions,
+  atS: number,
+  strokes = FAULT_DRAWING,
+  settings = SETTINGS,
+) {
   const { world, board, ...first } = await newPlotter(options);
   const journal: JournalEntry[] = [];
   const record = (entry: JournalEntry): void => void journal.push(entry);
-  const run = await first.begin(new LocalPlanner(FAULT_DRAWING), { journal: { record } });
+  const run = await first.begin(new LocalPlanner(strokes), { journal: { record } }, settings);
   await world.advance(atS);
   const ended = run.finished.catch(() => undefined);
   if (how === "killed while it pauses") {
@@ -51,13 +58,20 @@ async function interrupted(how: How, options: VirtualGrblOptions, atS: number) {
   const { place: from, received } = how === "unplugged" ? journal.at(-1)! : atKill;
   const next = how === "unplugged" ? first : await plotterOn(board, world);
   const found = next.driver.state;
-  const resumed = await next.begin(new LocalPlanner(FAULT_DRAWING), { from, received, journal: { record } });
+  const start = { from, received, journal: { record } };
+  const resumed = await next.begin(new LocalPlanner(strokes), start, settings);
+  resumeAtPenStops(resumed);
   await world.run(resumed.resume());
   expect(await world.run(resumed.finished)).toEqual({ kind: "done" });
   await ended;
   expect(board.state()).toMatchObject({ state: "Idle", penUp: true, lostCount: 0 });
-  return { found, ...compareDrawn(FAULT_DRAWING, board.drawn()) };
+  return { found, ...compareDrawn(strokes, board.drawn()) };
 }
+
+const resumeAtPenStops = (run: RunningPlot): void =>
+  run.onHeld((_, wait) => {
+    if (wait) void run.resume();
+  });
 
 describe.each(FACES)("a plot on $face", (options) => {
   it.each(["killed", "unplugged"] as const)(
@@ -111,5 +125,56 @@ describe.each(FACES)("a plot on $face", (options) => {
     expect(overlapMm).toBeLessThan(MOST_MM);
     expect(awayMm).toBeLessThan(MOST_MM);
     expect(holdCount).toBeGreaterThan(5);
+  });
+});
+
+describe("a plot with a pen stop", () => {
+  const LAYERS = ["first", "second"].map((id) => ({ id, name: id, color: null }));
+  const TWO_PENS = layeredStrokes(LAYERS, [
+    [0, [20, 20, 30, 20]],
+    [0, [30, 30, 60, 30]],
+    [1, [20, 40, 40, 40]],
+    [1, [20, 50, 40, 50]],
+  ]);
+  const WITH_STOP: PlotSettings = { ...SETTINGS, penStops: "layers" };
+
+  /** Runs to the stop; returns how long that takes from the beginning, s. */
+  async function stopS(): Promise<number> {
+    const { world, begin } = await newPlotter();
+    const run = await begin(new LocalPlanner(TWO_PENS), {}, WITH_STOP);
+    const fromS = world.nowS();
+    await world.run(new Promise<void>((resolve) => run.onHeld((held) => held && resolve())));
+    return world.nowS() - fromS;
+  }
+
+  /** From the beginning of the last stroke before the stop, until home. */
+  async function instants(): Promise<number[]> {
+    const count = cases(60, 12);
+    const untilS = await stopS();
+    return Array.from({ length: count }, (_, i) => untilS * (0.4 + (0.6 * (i + 0.5)) / count));
+  }
+
+  it("leaves nothing out after the stop if it is killed just before", { timeout: 120_000 }, async () => {
+    for (const atS of await instants()) {
+      const { gapMm } = await interrupted("killed", { face: "1.1" }, atS, TWO_PENS, WITH_STOP);
+      expect({ atS, isWhole: gapMm < MOST_MM }).toEqual({ atS, isWhole: true });
+    }
+  });
+
+  it("leaves nothing out after the stop at an emergency stop before it", { timeout: 120_000 }, async () => {
+    for (const atS of await instants()) {
+      const { world, board, begin } = await newPlotter();
+      const run = await begin(new LocalPlanner(TWO_PENS), {}, WITH_STOP);
+      resumeAtPenStops(run);
+      await world.advance(atS);
+      for (let again = 0; again < 2; again++) {
+        await world.run(run.emergencyStop());
+        await world.run(run.resume());
+        await world.advance(0.3);
+      }
+      expect(await world.run(run.finished)).toEqual({ kind: "done" });
+      const { gapMm } = compareDrawn(TWO_PENS, board.drawn());
+      expect({ atS, isWhole: gapMm < MOST_MM }).toEqual({ atS, isWhole: true });
+    }
   });
 });
