@@ -48,6 +48,9 @@ interface Running {
   isStopped: boolean;
   /** Null while the plot is still being planned. */
   run: RunningPlot | null;
+  /** Resolves when `run` exists, or the plot has ended before; `setPlanned` resolves it. */
+  readonly planned: Promise<void>;
+  readonly setPlanned: () => void;
   /** Whether the run begins held. Once it exists, it knows itself what the user wants. */
   beginsHeld: boolean;
   /** Settles after the end has been applied to the job; never rejects. */
@@ -159,8 +162,9 @@ export class RunningPlots {
     return this.jobs.save({ ...this.jobs.get(id), place: jobPlace(place) });
   }
 
-  /** Where such a move would lead. */
-  placeAfter(id: string, by: MovePlace): PlaceOnPaper {
+  /** Where such a move would lead. Waits while the plot is still being planned: a page asks as soon as it is paused. */
+  async placeAfter(id: string, by: MovePlace): Promise<PlaceOnPaper> {
+    await this.runningOf(id, ["paused"], "moved along").planned;
     const { x, y, ...place } = this.liveRun(id, "moved along").placeAfter(by);
     return { ...jobPlace(place), xMm: x, yMm: y };
   }
@@ -216,9 +220,13 @@ export class RunningPlots {
   }
 
   private begin(plotter: PlotterPort, job: Job, live: LiveStrokes | null = null): Running {
+    let setPlanned = (): void => undefined;
+    const planned = new Promise<void>((resolve) => (setPlanned = resolve));
     const running: Running = {
       job,
       plotter,
+      planned,
+      setPlanned,
       timer: new MotionTimer(this.parts.nowIso(), job.plottedS ?? 0),
       live,
       notes: [],
@@ -245,6 +253,7 @@ export class RunningPlots {
         : { kind: "failed", error: error instanceof Error ? error : new Error(String(error)) };
     });
     running.run = null;
+    running.setPlanned();
     running.live?.fail(end.kind === "failed" ? end.error : end.kind === "done" ? liveEnded() : liveStopped());
     this.safely(running.job.id, () => this.ended(running, end));
   }
@@ -262,6 +271,7 @@ export class RunningPlots {
       const held = running.beginsHeld;
       const run = await plotter.plot(planner, settings, { from, held, ...this.startOf(running, from) });
       running.run = run;
+      running.setPlanned();
       run.onProgress((progress) => this.progress(id, plotter.id, progress));
       run.onHeld((isHeld, wait = null) => this.safely(id, () => this.held(id, isHeld, wait)));
       // Requests that came before the run existed.

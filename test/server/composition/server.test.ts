@@ -169,7 +169,7 @@ describe("a server", () => {
   });
 
   it("takes a drawing that leaves the paper only with a choice, by every way into the queue, and tells its size", async () => {
-    // 330 mm long on a page of A4.
+    // 330 mm long on a page of A4: too long to be moved, and out of the machine's reach.
     const wide = svg('<path d="M10 20H330"/>', 'width="297mm" height="210mm" viewBox="0 0 297 210"');
     const withPrepare = (change: Partial<PlotSettings["prepare"]>): PlotSettings => ({
       ...DEFAULT_PLOT_SETTINGS,
@@ -180,7 +180,7 @@ describe("a server", () => {
       return `${response.status} ${error.code} ${error.message}`;
     };
     const REFUSED =
-      /^422 out-of-bounds .* paper of 297 × 210 mm: 1 stroke reaches up to 33 mm over its right edge\. .*cut.*fit.*allow/;
+      /^422 out-of-bounds .* paper of 297 × 210 mm: 1 stroke reaches up to 33 mm over its right edge\. Choose .*: cut \(at the paper's edge\), fit \(to the paper\)\. /;
     const asFile = (settings: string): Promise<Response> =>
       fetch(`${server.url}/api/v1/jobs?name=wide.svg${settings}`, {
         method: "POST",
