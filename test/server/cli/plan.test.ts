@@ -367,7 +367,7 @@ describe("the size on the paper", () => {
     expect([commands.includes("drawn"), err]).toEqual([false, "drawn 267 × 53.4 mm, 267 %\n"]);
   });
 
-  it("is not drawn outside the paper without a choice, in any way of placing", async () => {
+  it("is not drawn outside the paper without a choice, in any way of placing, and each choice named helps", async () => {
     const hatched = join(dir, "hatched.svg");
     writeFileSync(
       hatched,
@@ -386,9 +386,13 @@ describe("the size on the paper", () => {
     ]) {
       const run = await cli("plan", ...args, "--json");
       expect([args, run.code, run.out]).toEqual([args, 3, ""]);
-      expect(run.err).toMatch(
-        /leaves the paper of 297 × 210 mm: .* mm over its .* edge.*--outside.*cut.*allow/,
-      );
+      expect(run.err).toMatch(/leaves the paper of 297 × 210 mm: .* mm over its .* edge.*--outside/);
+      const choices = Array.from(run.err.matchAll(/\b(cut|move|fit|allow) \(/g), ([, mode]) => mode);
+      expect(choices.length).toBeGreaterThan(0);
+      for (const mode of choices) {
+        const chosen = await cli("plan", ...args, "--outside", mode, "--json");
+        expect([args, mode, chosen.code]).toEqual([args, mode, 0]);
+      }
     }
     const { err } = await cli("plan", line(330));
     expect(err).toContain("1 stroke reaches up to 33 mm over its right edge.");
