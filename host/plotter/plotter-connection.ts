@@ -6,7 +6,7 @@
  *      ^                    │            │         │
  *      └── no board ────────┴── fault <──┴─────────┘   (retried every 2 s while a device path is known)
  */
-import { PlotwrightError, type Clock } from "../../src/index.js";
+import { PlotwrightError, type Clock, type MachineProfile } from "../../src/index.js";
 import {
   controllerOf,
   driverOf,
@@ -14,6 +14,7 @@ import {
   powerFailed,
   powerLost,
   powerLow,
+  type Driver,
   type Machine,
   type PenBefore,
   type VirtualMachine,
@@ -268,6 +269,8 @@ export class PlotterConnection {
   private async connect(): Promise<void> {
     this.cancelRetry?.();
     try {
+      const machine = machineOf(this.settings);
+      const driver = await driverOf(machine);
       const connection = await connect({
         device: this.options.device,
         devices: this.options.devices,
@@ -275,9 +278,9 @@ export class PlotterConnection {
         virtualIfNone: this.options.virtualIfNone !== false && !this.hadSerial,
         clock: this.clock,
         speed: this.options.virtualSpeed ?? 1,
-        driver: driverOf(machineOf(this.settings)),
-        usbIds: controllerOf(machineOf(this.settings)).usbIds,
-        virtualMachine: () => this.makeVirtual(),
+        driver,
+        usbIds: controllerOf(machine).usbIds,
+        virtualMachine: () => (this.virtual ??= this.virtualOf(driver, machine)),
         events: {
           changed: () => this.machineChanged(),
           buttonPressed: () => void this.run?.pause().catch(() => undefined),
@@ -291,16 +294,14 @@ export class PlotterConnection {
     }
   }
 
-  private makeVirtual(): VirtualMachine {
-    const machine = machineOf(this.settings);
-    this.virtual ??= driverOf(machine).virtualMachine({
+  private virtualOf(driver: Driver, machine: MachineProfile): VirtualMachine {
+    return driver.virtualMachine({
       clock: this.clock,
       speed: this.options.virtualSpeed ?? 1,
       firmware: this.options.firmware,
       springs: this.options.virtualSprings,
       machine,
     });
-    return this.virtual;
   }
 
   private async adopt(connection: ConnectedMachine): Promise<void> {

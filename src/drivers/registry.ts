@@ -1,7 +1,7 @@
 /**
  * The drivers, by the `kind` of a machine's controller. There are three tables instead of one because a bundler keeps or
  * drops a table as a whole. The page loads only the descriptions (2 kB), and its worker also the planners (26 kB). Only
- * code that connects to a machine loads the drivers (64 kB).
+ * code that connects to a machine loads the drivers, and Grbl's (20 kB) only for a Grbl machine.
  */
 import { PlotwrightError } from "../errors.js";
 import { checkController, checkProfile } from "../machines/check-profile.js";
@@ -15,7 +15,10 @@ import type { PlanForMachine } from "./machine-job.js";
 /** All controllers, by their `kind`. */
 export const CONTROLLERS = { ebb: ebb.description, grbl: grbl.description } as const;
 const PLANNERS: ByKind<PlanForMachine> = { ebb: ebb.planJob, grbl: grbl.planJob };
-const DRIVERS: ByKind<Driver> = { ebb: ebb.driver, grbl: grbl.driver };
+const DRIVERS: ByKind<() => Promise<Driver>> = {
+  ebb: () => Promise.resolve(ebb.driver),
+  grbl: async () => (await import("./grbl/driver.js")).driver,
+};
 
 type ByKind<T> = Readonly<Record<keyof typeof CONTROLLERS, T>>;
 
@@ -25,8 +28,8 @@ export const controllerOf = (machine: MachineProfile): ControllerDescription => 
 /** The function that plans jobs for a machine. */
 export const plannerOf = (machine: MachineProfile): PlanForMachine => ofKind(PLANNERS, machine);
 
-/** The driver that connects to a machine. */
-export const driverOf = (machine: MachineProfile): Driver => ofKind(DRIVERS, machine);
+/** The driver that connects to a machine. Rejects with `bad-setting`. */
+export const driverOf = async (machine: MachineProfile): Promise<Driver> => ofKind(DRIVERS, machine)();
 
 /** The USB devices of all drivers. */
 export const usbIds = (): readonly UsbId[] => Object.values(CONTROLLERS).flatMap((one) => one.usbIds);

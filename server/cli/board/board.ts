@@ -123,7 +123,7 @@ async function passOn(bytes: Uint8Array, transport: Transport, pty: RawPty): Pro
 export async function runBoard(options: BoardCommandOptions, io: CliIo): Promise<void> {
   const machine = machineById(options.machine ?? "axidraw-v3");
   checkLinkPath(options.pty);
-  const { bench, virtualMachine } = driverOf(machine);
+  const { bench, virtualMachine } = await driverOf(machine);
   const { speed = 1, firmware, springs } = options;
   const board = virtualMachine({ clock: nodeClock, machine, speed, firmware, springs });
   const ptyBoard = await openPtyBoard(board);

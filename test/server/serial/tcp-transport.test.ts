@@ -1,7 +1,7 @@
 /** A machine on the network: a virtual Grbl behind a TCP port. */
 import { createServer, type AddressInfo, type Socket } from "node:net";
 import { afterEach, describe, expect, it } from "vitest";
-import { driver } from "../../../src/drivers/grbl/controller.js";
+import { driver } from "../../../src/drivers/grbl/driver.js";
 import { VirtualGrbl } from "../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { NODE_PARTS } from "../../../server/plotter/node-parts.js";
 import { nodeClock } from "../../../server/serial/node-clock.js";

@@ -2,7 +2,7 @@
 import { expect } from "vitest";
 import { PlotterConnection } from "../../../host/plotter/plotter-connection.js";
 import type { PlotStart, RunningPlot } from "../../../host/plotter/plotter-port.js";
-import { driver as grblDriver } from "../../../src/drivers/grbl/controller.js";
+import { driver as grblDriver } from "../../../src/drivers/grbl/driver.js";
 import { VirtualGrbl } from "../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import type { VirtualGrblOptions } from "../../../src/drivers/grbl/virtual/virtual-settings.js";
 import type { PlannedPlot, PlanRequest } from "../../../host/planning/planning.js";

@@ -90,7 +90,7 @@ async function newPlot(firmware: string, strokes: StrokeSet) {
 async function newMachine(options: Partial<VirtualBoardOptions> = {}) {
   const clock = new ManualClock();
   const board = new VirtualBoard({ clock, ...options });
-  const driver = driverOf(machineById("axidraw-v3"));
+  const driver = await driverOf(machineById("axidraw-v3"));
   const machine = await clock.run(
     driver.identify(board.transport(), { clock, machineClock: clock, speed: 1, events: NO_EVENTS }),
   );

@@ -1,6 +1,6 @@
 /** Grbl 0.9 and 1.1 and their children: each is known by name, plots in the planned time, pauses and stops. */
 import { describe, expect, it } from "vitest";
-import { driver as grblDriver } from "../../../../src/drivers/grbl/controller.js";
+import { driver as grblDriver } from "../../../../src/drivers/grbl/driver.js";
 import { isGreeting, offsetOf, statusOf, versionOf } from "../../../../src/drivers/grbl/protocol.js";
 import { FACES, type FaceName } from "../../../../src/drivers/grbl/virtual/faces.js";
 import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";

@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { NodePlotter } from "../../../support/plots/node-plotter.js";
 import { planJob, type StrokeSet } from "../../../../src/index.js";
-import { driver as grblDriver } from "../../../../src/drivers/grbl/controller.js";
+import { driver as grblDriver } from "../../../../src/drivers/grbl/driver.js";
 import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../../../src/schema/index.js";
 import { GRBL, NO_EVENTS } from "../../../support/machines/machine.js";

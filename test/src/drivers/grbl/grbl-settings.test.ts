@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import type { PlotProgress } from "../../../../src/internal.js";
 import { PlotterConnection } from "../../../../host/plotter/plotter-connection.js";
-import { driver as grblDriver } from "../../../../src/drivers/grbl/controller.js";
+import { driver as grblDriver } from "../../../../src/drivers/grbl/driver.js";
 import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { planJob } from "../../../../src/index.js";
 import { GRBL, NO_EVENTS } from "../../../support/machines/machine.js";
