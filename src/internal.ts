@@ -185,13 +185,13 @@ export { Streamer } from "./drivers/ebb/stream/streamer.js";
 export type { StreamOptions } from "./drivers/ebb/stream/stream-types.js";
 export {
   controllerOf,
-  driverOf,
   findsHome,
   firmwareAdvice,
   firmwareFor,
   isPlannedAlike,
   usbIds,
 } from "./drivers/registry.js";
+export { driverOf } from "./drivers/connecting.js";
 export { scaledClock } from "./drivers/transport.js";
 export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
 export type { GrblController } from "./drivers/grbl/model/grbl-controller.js";

@@ -1,13 +1,13 @@
 /**
- * The drivers, by the `kind` of a machine's controller. There are three tables instead of one because a bundler keeps or
- * drops a table as a whole. The page loads only the descriptions (2 kB), and its worker also the planners (26 kB). Only
- * code that connects to a machine loads the drivers, and Grbl's (20 kB) only for a Grbl machine.
+ * The controllers, by the `kind` of a machine's controller. There are two tables instead of one because a bundler keeps or
+ * drops a table as a whole. The page loads only the descriptions (2 kB), and its worker also the planners (26 kB). The
+ * drivers are in `connecting.ts`.
  */
 import { PlotwrightError } from "../errors.js";
 import { checkController, checkProfile } from "../machines/check-profile.js";
 import type { MachineProfile } from "../machines/profile.js";
 import type { PenSettings } from "../settings/pen.js";
-import type { ControllerDescription, Driver, UsbId } from "./driver.js";
+import type { ControllerDescription, UsbId } from "./driver.js";
 import * as ebb from "./ebb/controller.js";
 import * as grbl from "./grbl/controller.js";
 import type { PlanForMachine } from "./machine-job.js";
@@ -15,21 +15,14 @@ import type { PlanForMachine } from "./machine-job.js";
 /** All controllers, by their `kind`. */
 export const CONTROLLERS = { ebb: ebb.description, grbl: grbl.description } as const;
 const PLANNERS: ByKind<PlanForMachine> = { ebb: ebb.planJob, grbl: grbl.planJob };
-const DRIVERS: ByKind<() => Promise<Driver>> = {
-  ebb: () => Promise.resolve(ebb.driver),
-  grbl: async () => (await import("./grbl/driver.js")).driver,
-};
 
-type ByKind<T> = Readonly<Record<keyof typeof CONTROLLERS, T>>;
+export type ByKind<T> = Readonly<Record<keyof typeof CONTROLLERS, T>>;
 
 /** Throws `bad-setting` for a profile with an unknown controller, as do the functions below. */
 export const controllerOf = (machine: MachineProfile): ControllerDescription => ofKind(CONTROLLERS, machine);
 
 /** The function that plans jobs for a machine. */
 export const plannerOf = (machine: MachineProfile): PlanForMachine => ofKind(PLANNERS, machine);
-
-/** The driver that connects to a machine. Rejects with `bad-setting`. */
-export const driverOf = async (machine: MachineProfile): Promise<Driver> => ofKind(DRIVERS, machine)();
 
 /** The USB devices of all drivers. */
 export const usbIds = (): readonly UsbId[] => Object.values(CONTROLLERS).flatMap((one) => one.usbIds);
@@ -69,7 +62,8 @@ export function isPlannedAlike(
   return firmware.isPlannedAlike(pen, firmwareFor(machine, a), firmwareFor(machine, b));
 }
 
-function ofKind<T>(table: ByKind<T>, { name, controller }: MachineProfile): T {
+/** Throws `bad-setting` for an unknown controller. */
+export function ofKind<T>(table: ByKind<T>, { name, controller }: MachineProfile): T {
   const all: Readonly<Record<string, T>> = table;
   if (Object.hasOwn(all, controller.kind)) return all[controller.kind];
   const known = Object.keys(table).join(", ");

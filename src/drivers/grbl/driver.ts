@@ -1,4 +1,4 @@
-/** Connects to a Grbl controller, or simulates one. `registry.ts` imports this for the first Grbl machine. */
+/** Connects to a Grbl controller, or simulates one. `connecting.ts` imports this for the first Grbl machine. */
 import type { Driver } from "../driver.js";
 import { GrblMachine } from "./machine/grbl-machine.js";
 import { GrblSession } from "./machine/session.js";

@@ -1,0 +1,16 @@
+/**
+ * The drivers, which only code that connects to a machine loads; Grbl's only for a Grbl machine. They are not in
+ * `registry.ts`, because a bundler splits all code that such an import and a plan share.
+ */
+import type { MachineProfile } from "../machines/profile.js";
+import type { Driver } from "./driver.js";
+import { driver as ebb } from "./ebb/controller.js";
+import { ofKind, type ByKind } from "./registry.js";
+
+const DRIVERS: ByKind<() => Promise<Driver>> = {
+  ebb: () => Promise.resolve(ebb),
+  grbl: async () => (await import("./grbl/driver.js")).driver,
+};
+
+/** The driver that connects to a machine. Rejects with `bad-setting` for an unknown controller. */
+export const driverOf = async (machine: MachineProfile): Promise<Driver> => ofKind(DRIVERS, machine)();
