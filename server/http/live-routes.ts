@@ -74,6 +74,8 @@ export class LiveSockets {
     handleProtocols: (offered) => (offered.has(LIVE_PROTOCOL) ? LIVE_PROTOCOL : false),
   });
   private readonly sockets = new Map<WebSocket, LiveConnection>();
+  /** Set while those that still draw are waited for. */
+  private ending: NodeJS.Timeout | null = null;
 
   accept(
     request: IncomingMessage,
@@ -83,7 +85,10 @@ export class LiveSockets {
   ): void {
     this.server.handleUpgrade(request, request.socket, head, (socket) => {
       this.sockets.set(socket, { callerId, session: follow(socket) });
-      socket.on("close", () => this.sockets.delete(socket));
+      socket.on("close", () => {
+        this.sockets.delete(socket);
+        if (this.sockets.size === 0 && this.ending !== null) clearTimeout(this.ending);
+      });
     });
   }
 
@@ -95,7 +100,9 @@ export class LiveSockets {
   /** Call after the plots were told to stop: those that draw end with the message that their job has ended. */
   close(): void {
     for (const [socket, { session }] of this.sockets) if (!session.isDrawing) socket.terminate();
-    setTimeout(() => this.sockets.forEach((_open, socket) => socket.terminate()), CLOSE_MS).unref();
+    if (this.sockets.size === 0) return;
+    this.ending = setTimeout(() => this.sockets.forEach((_open, socket) => socket.terminate()), CLOSE_MS);
+    this.ending.unref();
   }
 }
 

@@ -32,8 +32,10 @@ describe("the table of operations", () => {
       "post /plotters/:id/stop",
     ]);
     const isForWatchers = ({ role }: Operation): boolean => role === "all" || role === "watch";
-    const secrets = ROWS.filter((one) => one.method === "get" && !isForWatchers(one));
-    expect(secrets.map(titleOf)).toEqual([
+    const notForWatchers = ROWS.filter((one) => one.method === "get" && !isForWatchers(one));
+    expect(notForWatchers.map(titleOf)).toEqual([
+      // A WebSocket that draws.
+      "get /plotters/:id/live",
       "get /logs",
       "get /access",
       "get /webhooks",
