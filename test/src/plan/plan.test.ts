@@ -149,6 +149,27 @@ describe("corner speed in junction mode", () => {
     }
   });
 
+  it("is kept between the points of a curve, but not between the corners of a zigzag", () => {
+    // Both turn by 0.1 rad after each 0.5 mm.
+    const draw = { ...motion.draw, speedMmPerS: 500, accelMmPerS2: 200, cornerMm: 0.05 };
+    const zigzag = Array.from({ length: 180 }, (_, i): Point => [
+      100 + 0.5 * i * Math.cos(0.05),
+      100 + (i % 2) * 0.5 * Math.sin(0.1),
+    ]);
+    const accelAmongPoints = (points: Point[]): number => {
+      const t = plan(strokeSetOf([points]), { ...motion, draw }, DEFAULT_PEN);
+      const [first, end] = [t.runs.firstBlock[1], t.runs.firstBlock[2]];
+      const middle = Array.from({ length: end - first }, (_, i) => first + i).slice(80, -80);
+      expect(middle.length).toBeGreaterThan(15);
+      return Math.max(...middle.map((k) => Math.hypot(t.ax[k], t.ay[k])));
+    };
+    for (const mirrored of [1, -1]) {
+      const curve = circle(5, 0.5, 3).map(([x, y]): Point => [mirrored * (x - 100) + 100, y]);
+      expect(accelAmongPoints(curve)).toBeLessThan(1e-6);
+    }
+    expect(accelAmongPoints(zigzag)).toBeGreaterThan(100);
+  });
+
   it("at a right angle is junction deviation's √(2.414 A δ)", () => {
     const draw = { speedMmPerS: 500, accelMmPerS2: 1000, cornerMm: 0.05, jerkMmPerS3: 1e5 };
     const t = plan(

@@ -105,6 +105,25 @@ describe("a shaped motion", () => {
     );
   });
 
+  it("is the planned motion, delayed and weighed as the kernel says, at any moment", () => {
+    fc.assert(
+      fc.property(arbitraryStrokes, arbitrarySprings, arbitraryShaper, (strokes, springs, shaper) => {
+        const machine = swinging(springs);
+        const t = plan(strokeSetOf(strokes), motionOf(shaper, 2_000), DEFAULT_PEN, { machine });
+        const { trajectory, kernel } = t.planned!;
+        for (let i = 0; i <= 200; i++) {
+          const atS = (t.totalS * i) / 200;
+          const before = (delayS: number) => stateAt(trajectory, atS - delayS);
+          const x = kernel.x.reduce((sum, { delayS, weight }) => sum + weight * before(delayS).x, 0);
+          const y = kernel.y.reduce((sum, { delayS, weight }) => sum + weight * before(delayS).y, 0);
+          const at = stateAt(t, atS);
+          expect(Math.hypot(at.x - x, at.y - y)).toBeLessThan(SHORT_MM);
+        }
+      }),
+      RUNS,
+    );
+  });
+
   it("keeps A in each axis, is continuous, and takes every run from rest to rest", () => {
     fc.assert(
       fc.property(
