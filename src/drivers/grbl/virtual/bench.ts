@@ -18,6 +18,20 @@ const faults: Readonly<Record<string, Fault>> = {
     apply: act((board) => board.restart()),
   },
   hold: { usage: "hold", does: "its hold button is pressed", apply: act((board) => board.pressHold()) },
+  resume: {
+    usage: "resume",
+    does: "its resume button is pressed, which ends a hold, also that of a closed door",
+    apply: act((board) => board.takeFromOther("~")),
+  },
+  door: {
+    usage: "door open|close",
+    does: "its safety door is opened or closed",
+    apply: (board, value) => {
+      if (value !== "open" && value !== "close") return false;
+      board.setDoor(value === "open");
+      return true;
+    },
+  },
   limit: { usage: "limit", does: "a limit switch is hit", apply: act((board) => board.stopWith(1)) },
   lose: {
     usage: "lose N",

@@ -32,6 +32,10 @@ export interface Face {
   alarm(code: number): string;
   /** After a refused line it refuses all G-code with the same error up to an empty line or a reset. */
   readonly refusesOn: boolean;
+  /** It reports its state also while it seeks its switches. */
+  readonly reportsHoming: boolean;
+  /** The number of the state in which it resumes after its door was open. */
+  readonly doorResuming: number;
 }
 
 const ARDUINO: Face = {
@@ -45,6 +49,8 @@ const ARDUINO: Face = {
   error: (code) => `error:${code}`,
   alarm: (code) => `ALARM:${code}`,
   refusesOn: false,
+  reportsHoming: false,
+  doorResuming: 3,
 };
 
 const OLD_ERRORS: Readonly<Record<number, string>> = { 9: "Alarm lock", 20: "Unsupported command" };
@@ -87,11 +93,14 @@ const TABLE: Readonly<Record<FaceName, Face>> = {
     queueMoves: HAL_QUEUE,
     rxBytes: HAL_RX_BYTES,
     refusesOn: true,
+    reportsHoming: true,
+    doorResuming: 4,
   },
   FluidNC: {
     ...ARDUINO,
     greeting: "Grbl 3.7 [FluidNC v3.7.16 (wifi) '$' for help]",
     info: ["[VER:3.7 FluidNC v3.7.16:]", "[OPT:MPHS]", "[MSG: Machine: Plotter]"],
+    reportsHoming: true,
     report: ({ state, machineAt, feed, offset }) =>
       `<${state}|MPos:${machineAt}|FS:${feed},0${offset === null ? "" : `|WCO:${offset}`}>`,
   },

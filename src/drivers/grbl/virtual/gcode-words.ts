@@ -7,6 +7,8 @@ export const ERROR = {
   noHoming: 5,
   busy: 8,
   locked: 9,
+  door: 13,
+  jog: 16,
   unknown: 20,
   sameGroup: 21,
   noFeed: 22,

@@ -4,19 +4,21 @@
  * that this driver sends, and refuses others as Grbl does.
  */
 import { PlotwrightError } from "../../../errors.js";
-import { positionFromMotors } from "../../../machines/motors.js";
 import type { DrawnPolyline } from "../../drawn-polylines.js";
 import type { VirtualMachine, VirtualMachineOptions } from "../../driver.js";
 import { asciiBytes } from "../../line-splitter.js";
 import type { Transport } from "../../transport.js";
-import { dwellS } from "../model/grbl-controller.js";
-import { sum, type Axes } from "../model/planner.js";
 import { VirtualLink } from "../../virtual-link.js";
 import { versionOf } from "../protocol.js";
-import { ERROR, Modes, wordsOf } from "./gcode-words.js";
+import { AT_SWITCHES, Coordinates } from "./coordinates.js";
+import { DollarLines } from "./dollar-lines.js";
+import { GcodeLines } from "./gcode-lines.js";
+import { ERROR, Modes } from "./gcode-words.js";
 import { GrblMotion } from "./motion.js";
 import { RxBuffer } from "./rx-buffer.js";
+import { States } from "./states.js";
 import { Ink, VirtualPen } from "./virtual-pen.js";
+import { Dwell } from "./dwell.js";
 import {
   VirtualSettings,
   type LineFault,
@@ -28,7 +30,6 @@ import {
 const START_S = 0.005;
 /** How long it seeks its switches: longer than any other silence. */
 const HOMING_S = 8;
-const PULL_OFF_MM = 1;
 
 export class VirtualGrbl implements VirtualMachine {
   readonly firmware: string;
@@ -38,26 +39,20 @@ export class VirtualGrbl implements VirtualMachine {
   private readonly startS: number;
   private link: VirtualLink | null = null;
   private readonly rx: RxBuffer;
+  /** The line that another program has sent, and that waits for its turn; "": none. */
+  private otherLine = "";
   private earlyCount = 0;
   private readonly modes = new Modes();
-  private isLocked = false;
-  private isAsleep = false;
-  private isHoming = false;
-  private isHeld = false;
-  /** After some alarms it answers nothing until it is reset. */
-  private isDeaf = false;
-  /** Origin of the work coordinates, mm. */
-  private offset: Axes = [0, 0, 0];
-  /** Where the machine coordinates begin since the last start, mm from where they began at the first. */
-  private origin: Axes = [0, 0, 0];
+  private readonly states: States;
+  private readonly coordinates: Coordinates;
   /** A grblHAL refuses all G-code after an error. */
   private refusal = 0;
-  /** Machine seconds at which the running G4 ends; null: none is running. */
-  private waitUntilS: number | null = null;
-  private afterWait: () => void = () => undefined;
+  private readonly wait = new Dwell();
   private startDueS: number | null = null;
   private cancelTimer: () => void = () => undefined;
   private isClosed = false;
+  private readonly dollar: DollarLines;
+  private readonly gcode: GcodeLines;
   private readonly ink = new Ink(
     () => this.isPenDown,
     () => this.onPage,
@@ -72,14 +67,39 @@ export class VirtualGrbl implements VirtualMachine {
     this.settings = new VirtualSettings(machine, options.firmware ?? "", board);
     this.firmware = versionOf(this.settings.face.greeting)!;
     this.pen = new VirtualPen(machine);
+    this.coordinates = new Coordinates(machine);
     this.rx = new RxBuffer(this.settings.rxBytes);
+    this.states = new States(this.settings.face.doorResuming);
     this.motion = new GrblMotion(
       this.settings.face.queueMoves,
       () => this.settings.limits,
-      (at) => this.onSteps(at),
+      (at) => this.coordinates.onSteps(at),
       () => this.ink.arrived(),
     );
-    this.isLocked = this.settings.hasHoming;
+    this.states.isLocked = this.settings.hasHoming;
+    const { settings, modes, motion, coordinates, states } = this;
+    const parts = { settings, modes, motion, coordinates };
+    this.dollar = new DollarLines({
+      ...parts,
+      states,
+      reply: (line) => this.reply(line),
+      seekSwitches: () => {
+        this.seek(() => this.answer("ok"));
+        this.rx.dropLine();
+      },
+      begin: () => this.begin(),
+    });
+    this.gcode = new GcodeLines({
+      ...parts,
+      isChecking: () => states.isChecking,
+      signalChanged: () => this.pen.signal(modes.signal, this.nowS),
+      wait: (seconds, then) => this.answerAfter(seconds, then),
+      offsetChanged: () => {
+        settings.offsetDue = 0;
+        this.ink.begin(false);
+      },
+      softLimit: () => this.alarm(2),
+    });
     this.ink.begin(false);
   }
 
@@ -104,10 +124,10 @@ export class VirtualGrbl implements VirtualMachine {
   restart(): void {
     this.catchUp();
     this.motion.stop();
-    this.origin = sum(this.origin, this.motion.at);
+    this.coordinates.restarted(this.motion.at);
     this.motion.jumpTo([0, 0, 0]);
     this.ink.begin(this.isPenDown);
-    this.isLocked = this.settings.hasHoming;
+    this.states.isLocked = this.settings.hasHoming;
     this.begin();
     this.schedule();
   }
@@ -115,8 +135,7 @@ export class VirtualGrbl implements VirtualMachine {
   /** As if the carriage was pushed by hand back to where it stood at the first start, which the Grbl does not notice. */
   pushHome(): void {
     this.catchUp();
-    const [x, y] = this.motion.at;
-    this.origin = [-x, -y, this.origin[2]];
+    this.coordinates.pushedHome(this.motion.at);
     this.ink.begin(false);
   }
 
@@ -132,6 +151,24 @@ export class VirtualGrbl implements VirtualMachine {
     this.catchUp();
     this.hold();
     this.schedule();
+  }
+
+  /** The switch of its door opens or closes. */
+  setDoor(isOpen: boolean): void {
+    this.catchUp();
+    this.states.door.isOpen = isOpen;
+    if (isOpen) this.stopForDoor();
+    this.schedule();
+  }
+
+  /**
+   * As if another program, connected to it as well, had sent this: a real-time character, or one line, which waits until
+   * the machine is idle. The answer is for that program.
+   */
+  takeFromOther(text: string): void {
+    this.catchUp();
+    if (!this.takesAtOnce(text)) this.otherLine = text;
+    this.work();
   }
 
   /** The cable is unplugged; it has a supply of its own, and goes on. */
@@ -151,11 +188,11 @@ export class VirtualGrbl implements VirtualMachine {
 
   state(): VirtualGrblState {
     this.catchUp();
-    const { x: xMm, y: yMm } = this.onPage;
-    const pen = { zMm: this.zMm, penUp: !this.isPenDown, offsetMm: this.offset };
+    const { x: xMm, y: yMm, zMm } = this.onPage;
+    const pen = { zMm, penUp: !this.isPenDown, offsetMm: this.coordinates.offset };
     const { starvedCount, movingS } = this.motion;
     const counts = { earlyCount: this.earlyCount, starvedCount, movingS, lostCount: this.rx.lostCount };
-    return { state: this.stateName(), xMm, yMm, ...pen, ...counts };
+    return { state: this.states.name(this.motion), xMm, yMm, ...pen, ...counts };
   }
 
   drawn(): DrawnPolyline[] {
@@ -171,20 +208,29 @@ export class VirtualGrbl implements VirtualMachine {
     this.catchUp();
     for (const byte of bytes) {
       const character = String.fromCharCode(byte);
-      if (character === "?") this.report();
-      else if (character === "!") this.hold();
-      else if (character === "~") this.resume();
-      else if (character === "\x18") this.reset();
-      else if (character === "\n" && this.settings.takes("line-end-lost")) continue;
-      else this.rx.push(character);
+      if (this.takesAtOnce(character)) continue;
+      if (character === "\n" && this.settings.takes("line-end-lost")) continue;
+      this.rx.push(character);
     }
     this.work();
   }
 
+  /** Whether it is a real-time command; those beyond ASCII that it does not know are dropped. */
+  private takesAtOnce(character: string): boolean {
+    if (character === "?") this.report();
+    else if (character === "!") this.hold();
+    else if (character === "~") this.resume();
+    else if (character === "\x18") this.reset();
+    else if (character === "\x84") this.stopForDoor();
+    else return character >= "\x80";
+    return true;
+  }
+
   /** Reads lines while it can, and sets a timer for the next event. */
   private work(): void {
-    while (!this.isHeld && !this.isAsleep && !this.isDeaf && this.waitUntilS === null) {
-      const received = this.rx.line;
+    while (this.states.readsLines && !this.wait.isRunning) {
+      this.performOther();
+      const received = this.wait.isRunning || this.states.isAsleep ? null : this.rx.line;
       if (received === null) break;
       const line = received.replace(/\s|\(.*?\)|;.*/g, "");
       const answer = this.perform(line.toUpperCase());
@@ -193,7 +239,7 @@ export class VirtualGrbl implements VirtualMachine {
       this.rx.dropLine();
       this.answer(answer === 0 ? "ok" : this.settings.face.error(answer));
     }
-    if (!this.motion.isEmpty && !this.motion.isMoving && !this.isHeld) {
+    if (!this.motion.isEmpty && !this.motion.isMoving && !this.states.isHeld) {
       this.startDueS ??= this.nowS + START_S;
       const waitsForMotion = /^(G4|M[345])/.test(this.rx.line ?? "");
       if (this.motion.isFull || waitsForMotion) this.startDueS = this.nowS;
@@ -204,7 +250,12 @@ export class VirtualGrbl implements VirtualMachine {
   private schedule(): void {
     this.cancelTimer();
     if (this.isClosed) return;
-    const dueS = Math.min(this.motion.nextS, this.waitUntilS ?? Infinity, this.startDueS ?? Infinity);
+    const dueS = Math.min(
+      this.motion.nextS,
+      this.wait.nextS,
+      this.states.door.nextS,
+      this.startDueS ?? Infinity,
+    );
     if (dueS === Infinity) return;
     const delayS = Math.max(0, dueS - this.nowS) / this.options.speed;
     this.cancelTimer = this.options.clock.after(delayS, () => {
@@ -225,12 +276,32 @@ export class VirtualGrbl implements VirtualMachine {
       this.startDueS = null;
     }
     this.motion.advance(toS);
-    if (this.waitUntilS !== null && this.waitUntilS <= toS) {
-      this.waitUntilS = null;
+    if (!this.motion.isMoving) this.rested();
+    if (this.states.door.hasResumed(toS)) this.goOn(toS);
+    const ended = this.wait.takeEnded(toS);
+    if (ended) {
       this.ink.see();
-      this.afterWait();
-      this.answer("ok");
+      ended();
     }
+  }
+
+  /** It has come to rest, or was at rest. */
+  private rested(): void {
+    if (this.states.door.rested()) this.pen.signal(null, this.nowS);
+    // A hold ends a jog.
+    if (this.states.isJogging && this.states.isHeld) {
+      this.motion.stop();
+      this.states.isHeld = this.states.door.state !== null;
+    }
+    if (this.motion.isEmpty) this.states.isJogging = false;
+  }
+
+  private performOther(): void {
+    const line = this.otherLine;
+    if (line === "" || !this.motion.isEmpty) return;
+    this.otherLine = "";
+    if (line === "$H") this.seek(() => undefined);
+    else this.dollar.perform(line);
   }
 
   /** Returns 0 if the line is done or queued, an error code if it is refused, null if it has to wait. */
@@ -244,155 +315,87 @@ export class VirtualGrbl implements VirtualMachine {
   }
 
   private performLine(line: string): number | null {
-    if (line.startsWith("$")) return this.system(line);
-    if (this.isLocked) return ERROR.locked;
-    const block = wordsOf(line);
-    if (typeof block === "number") return block;
-    const { modes, words } = block;
-    this.modes.takeTool(words);
-    const isChange = this.modes.takeSpindle(block, this.motion.isEmpty);
-    if (isChange === null) return null;
-    if (isChange) {
-      this.motion.mayRest();
-      this.pen.signal(this.modes.signal, this.nowS);
-    }
-    if (modes.includes("G4")) return this.dwell(modes, words);
-    if (modes.includes("G10")) return this.setOffset(words);
-    return this.move(modes, words);
-  }
-
-  private system(line: string): number | null {
-    const isAtRest = this.motion.isEmpty || this.isLocked;
-    const [, number, value] = /^\$(\d+)=(-?[\d.]+)$/.exec(line) ?? [];
-    const { face } = this.settings;
-    if (line === "$G") this.reply(face.modes(this.modes.words));
-    else if (line === "$")
-      this.reply("[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]");
-    else if (line === "$X") {
-      if (this.isLocked) this.reply("[MSG:Caution: Unlocked]");
-      this.isLocked = false;
-    } else if (line === "$H") return this.seekSwitches();
-    else if (line !== "$I" && line !== "$$" && line !== "$SLP" && number === undefined) {
-      return ERROR.dollar;
-    } else if (!isAtRest) return ERROR.busy;
-    else if (line === "$I") {
-      for (const info of face.info) this.reply(info);
-    } else if (line === "$$") for (const setting of this.settings.list()) this.reply(setting);
-    else if (line === "$SLP") this.isAsleep = true;
-    else {
-      this.settings.offsetDue = 0;
-      return this.settings.set(Number(number), Number(value)) ? 0 : ERROR.dollar;
-    }
-    return 0;
+    if (line.startsWith("$")) return this.dollar.perform(line);
+    if (this.states.isLocked || this.states.isJogging) return ERROR.locked;
+    return this.gcode.perform(line);
   }
 
   /** It stands at the switches then, where the carriage stood at the first start, and the pen is up. */
-  private seekSwitches(): number | null {
-    if (!this.settings.hasHoming) return ERROR.noHoming;
-    this.isHoming = true;
-    this.wait(HOMING_S, () => {
-      this.isHoming = this.isLocked = false;
-      this.motion.jumpTo([-PULL_OFF_MM, -PULL_OFF_MM, -PULL_OFF_MM]);
-      this.origin = [PULL_OFF_MM, PULL_OFF_MM, 0];
+  private seek(then: () => void): void {
+    this.states.isHoming = true;
+    this.wait.start(this.nowS + HOMING_S, () => {
+      this.states.isHoming = this.states.isLocked = false;
+      this.motion.jumpTo(AT_SWITCHES);
+      this.coordinates.foundSwitches();
       this.ink.begin(false);
+      then();
     });
-    return null;
   }
 
   /** The line is answered when the wait ends, so it is removed from the buffer here. */
-  private wait(seconds: number, then: () => void): void {
-    this.waitUntilS = this.nowS + seconds;
-    this.afterWait = then;
+  private answerAfter(seconds: number, then: () => void): void {
+    this.wait.start(this.nowS + seconds, () => {
+      then();
+      this.answer("ok");
+    });
     this.rx.dropLine();
   }
 
-  /**
-   * A move in the same line, whose line end was lost, comes after the wait.
-   */
-  private dwell(modes: readonly string[], words: ReadonlyMap<string, number>): number | null {
-    const seconds = words.get("P");
-    if (seconds === undefined) return ERROR.noWait;
-    if (!this.motion.isEmpty) return null;
-    this.motion.mayRest();
-    const rest = new Map(words);
-    rest.delete("P");
-    if (seconds <= 0) return this.move(modes, rest);
-    this.wait(dwellS(seconds), () => this.move(modes, rest));
-    return null;
-  }
-
-  private setOffset(words: ReadonlyMap<string, number>): number | null {
-    if (words.get("L") !== 20 || words.get("P") !== 1) return ERROR.unknown;
-    if (!this.motion.isEmpty) return null;
-    const at = this.motion.at;
-    const set = (i: 0 | 1 | 2, letter: string): number =>
-      words.has(letter) ? at[i] - (words.get(letter) ?? 0) : this.offset[i];
-    this.offset = [set(0, "X"), set(1, "Y"), set(2, "Z")];
-    this.settings.offsetDue = 0;
-    this.ink.begin(false);
-    return 0;
-  }
-
-  private move(modes: readonly string[], words: ReadonlyMap<string, number>): number | null {
-    const isMove = words.has("X") || words.has("Y") || words.has("Z");
-    if (isMove && this.motion.isFull) return null;
-    if (!this.modes.takeMotion(modes, words, isMove)) return ERROR.noFeed;
-    const { isRapid, feed } = this.modes;
-    if (!isMove) return words.size > (words.has("F") ? 1 : 0) ? ERROR.unused : 0;
-    const { end } = this.motion;
-    const target = (letter: string, axis: 0 | 1 | 2): number => {
-      const word = words.get(letter);
-      return word === undefined ? end[axis] : word + this.offset[axis];
-    };
-    const to = this.onSteps([target("X", 0), target("Y", 1), target("Z", 2)]);
-    if (this.settings.isBeyond(to)) {
-      // It comes to rest first; here at once.
-      this.alarm(2);
-      return null;
-    }
-    if (to.every((value, i) => value === end[i])) return 0;
-    this.motion.queue(to, isRapid ? Infinity : feed / 60);
-    return 0;
-  }
-
-  /** X and Y are rounded to whole steps. */
-  private onSteps([x, y, z]: Axes): Axes {
-    const { stepsPerMm } = this.options.machine;
-    return [Math.round(x * stepsPerMm) / stepsPerMm, Math.round(y * stepsPerMm) / stepsPerMm, z];
-  }
-
   private hold(): void {
-    if (this.isLocked || this.isAsleep) return;
-    this.isHeld = true;
+    if (this.states.cannotHold || this.states.isAsleep) return;
+    this.wait.hold(this.nowS);
+    this.states.isHeld = true;
     this.startDueS = null;
     if (this.motion.isMoving) this.motion.hold();
+    else this.rested();
+  }
+
+  private stopForDoor(): void {
+    if (this.states.isHoming) return this.failHoming(7);
+    if (this.states.cannotHold) return;
+    this.reply("[MSG:Check Door]");
+    if (this.states.isAsleep) return;
+    this.states.door.stop();
+    this.hold();
   }
 
   private resume(): void {
-    if (!this.isHeld || this.motion.isMoving) return;
-    this.isHeld = false;
-    if (!this.motion.isEmpty) this.motion.go(this.nowS);
+    if (!this.states.isHeld || this.motion.isMoving) return;
+    if (this.states.door.state === null) return this.goOn(this.nowS);
+    if (!this.states.door.resume(this.nowS, this.modes.signal !== null)) return;
+    this.pen.signal(this.modes.signal, this.nowS);
+    if (this.states.door.hasResumed(this.nowS)) this.goOn(this.nowS);
+  }
+
+  private goOn(nowS: number): void {
+    this.states.isHeld = false;
+    this.wait.goOn(nowS);
+    if (!this.motion.isEmpty) this.motion.go(nowS);
   }
 
   private reset(): void {
     if (this.motion.isMoving) {
       this.reply(this.settings.face.alarm(3));
-      this.isLocked = true;
+      this.states.isLocked = true;
     }
-    if (this.isHoming) {
-      this.reply(this.settings.face.alarm(6));
-      this.isLocked = true;
-    }
+    if (this.states.isHoming) return this.failHoming(6);
     // The motors were off, so the carriage may have been pushed.
-    if (this.isAsleep) this.isLocked = true;
+    if (this.states.isAsleep) this.states.isLocked = true;
+    this.begin();
+  }
+
+  private failHoming(alarm: number): void {
+    this.reply(this.settings.face.alarm(alarm));
+    this.states.isLocked = true;
     this.begin();
   }
 
   /** It stops, and answers nothing until it is reset. */
   private alarm(code: number): void {
     this.motion.stop();
-    this.waitUntilS = this.startDueS = null;
-    this.isLocked = this.isDeaf = true;
+    this.wait.cancel();
+    this.startDueS = null;
+    this.states.isLocked = this.states.isDeaf = true;
     this.reply(this.settings.face.alarm(code));
     this.reply("[MSG:Reset to continue]");
   }
@@ -401,26 +404,24 @@ export class VirtualGrbl implements VirtualMachine {
     this.motion.stop();
     this.rx.clear();
     this.refusal = 0;
-    this.isHeld = this.isAsleep = this.isDeaf = this.isHoming = false;
-    this.waitUntilS = this.startDueS = null;
+    this.states.begin();
+    this.wait.cancel();
+    this.startDueS = null;
     this.modes.reset();
     this.settings.offsetDue = 0;
     this.reply(this.settings.face.greeting);
-    if (this.isLocked) this.reply("[MSG:'$H'|'$X' to unlock]");
+    if (this.states.isLocked) this.reply("[MSG:'$H'|'$X' to unlock]");
+    else if (this.states.door.isOpen) this.stopForDoor();
   }
 
   private report(): void {
-    if (this.isDeaf || this.isHoming) return;
+    if (this.states.isDeaf || (this.states.isHoming && !this.settings.face.reportsHoming)) return;
     const { motion } = this;
+    const { offset } = this.coordinates;
     const free = `${motion.freeCount},${this.rx.freeCount}`;
-    this.reply(this.settings.report(this.stateName(), motion.at, this.offset, free, motion.speedMmPerS));
-  }
-
-  private stateName(): string {
-    if (this.isAsleep) return "Sleep";
-    if (this.isLocked) return "Alarm";
-    if (this.isHeld) return this.motion.isMoving ? "Hold:1" : "Hold:0";
-    return this.motion.isEmpty ? "Idle" : "Run";
+    this.reply(
+      this.settings.report(this.states.name(this.motion), motion.at, offset, free, motion.speedMmPerS),
+    );
   }
 
   /** The reply to a line. */
@@ -432,17 +433,11 @@ export class VirtualGrbl implements VirtualMachine {
     this.link?.deliver(asciiBytes(`${line}\r\n`));
   }
 
-  private get zMm(): number {
-    return this.origin[2] + this.motion.at[2];
-  }
-
   private get isPenDown(): boolean {
-    return this.pen.isDown(this.zMm, this.nowS);
+    return this.pen.isDown(this.onPage.zMm, this.nowS);
   }
 
-  private get onPage(): { x: number; y: number } {
-    const { machine } = this.options;
-    const [x, y] = sum(this.origin, this.motion.at);
-    return positionFromMotors(machine, x * machine.stepsPerMm, y * machine.stepsPerMm);
+  private get onPage(): { x: number; y: number; zMm: number } {
+    return this.coordinates.onPage(this.motion.at);
   }
 }

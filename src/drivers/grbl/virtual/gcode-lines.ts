@@ -1,0 +1,87 @@
+/** How the virtual Grbl performs a line of G-code: it queues a move, waits, sets its work offset, or switches its output. */
+import { dwellS } from "../model/grbl-controller.js";
+import type { Coordinates } from "./coordinates.js";
+import { ERROR, wordsOf, type Modes } from "./gcode-words.js";
+import type { GrblMotion } from "./motion.js";
+import type { VirtualSettings } from "./virtual-settings.js";
+
+export interface GcodeTarget {
+  readonly settings: VirtualSettings;
+  readonly motion: GrblMotion;
+  readonly modes: Modes;
+  readonly coordinates: Coordinates;
+  /** Lines are only checked. */
+  isChecking(): boolean;
+  /** The signal of the output has changed. */
+  signalChanged(): void;
+  /** The line is answered after this time. `then` does what is left of it. */
+  wait(seconds: number, then: () => void): void;
+  offsetChanged(): void;
+  /** It stops with ALARM:2. */
+  softLimit(): void;
+}
+
+export class GcodeLines {
+  constructor(private readonly board: GcodeTarget) {}
+
+  /** Returns 0 if the line is done or queued, an error code if it is refused, null if it has to wait. */
+  perform(line: string): number | null {
+    const { modes: lasting, motion } = this.board;
+    const block = wordsOf(line);
+    if (typeof block === "number") return block;
+    if (this.board.isChecking()) return 0;
+    const { modes, words } = block;
+    lasting.takeTool(words);
+    const isChange = lasting.takeSpindle(block, motion.isEmpty);
+    if (isChange === null) return null;
+    if (isChange) {
+      motion.mayRest();
+      this.board.signalChanged();
+    }
+    if (modes.includes("G4")) return this.dwell(modes, words);
+    if (modes.includes("G10")) return this.setOffset(words);
+    return this.move(modes, words);
+  }
+
+  /** A move in the same line, whose line end was lost, comes after the wait. */
+  private dwell(modes: readonly string[], words: ReadonlyMap<string, number>): number | null {
+    const { motion } = this.board;
+    const seconds = words.get("P");
+    if (seconds === undefined) return ERROR.noWait;
+    if (!motion.isEmpty) return null;
+    motion.mayRest();
+    const rest = new Map(words);
+    rest.delete("P");
+    if (seconds <= 0) return this.move(modes, rest);
+    this.board.wait(dwellS(seconds), () => void this.move(modes, rest));
+    return null;
+  }
+
+  private setOffset(words: ReadonlyMap<string, number>): number | null {
+    const { motion, coordinates } = this.board;
+    if (words.get("L") !== 20 || words.get("P") !== 1) return ERROR.unknown;
+    if (!motion.isEmpty) return null;
+    coordinates.setOffset(words, motion.at);
+    this.board.offsetChanged();
+    return 0;
+  }
+
+  private move(modes: readonly string[], words: ReadonlyMap<string, number>): number | null {
+    const { motion, coordinates, settings, modes: lasting } = this.board;
+    const isMove = words.has("X") || words.has("Y") || words.has("Z");
+    if (isMove && motion.isFull) return null;
+    if (!lasting.takeMotion(modes, words, isMove)) return ERROR.noFeed;
+    const { isRapid, feed } = lasting;
+    if (!isMove) return words.size > (words.has("F") ? 1 : 0) ? ERROR.unused : 0;
+    const { end } = motion;
+    const to = coordinates.target(words, end);
+    if (settings.isBeyond(to)) {
+      // It comes to rest first; here at once.
+      this.board.softLimit();
+      return null;
+    }
+    if (to.every((value, i) => value === end[i])) return 0;
+    motion.queue(to, isRapid ? Infinity : feed / 60);
+    return 0;
+  }
+}
