@@ -33,7 +33,7 @@ export interface LiveJob {
   /** Resolves with the job when it is on the plotter no more. */
   readonly ended: Promise<Job>;
   readonly isPaused: boolean;
-  /** Pauses the job while the sender does not answer; false, called whenever it answers: goes on, unless a user has paused it. */
+  /** Pauses the job while the sender does not answer; false, called whenever it answers: goes on, unless a user has paused or stopped it. */
   hold(isSilent: boolean): void;
   /** Nothing more is received. */
   senderLost(): void;
@@ -42,8 +42,6 @@ export interface LiveJob {
 export class LiveJobs {
   /** What is being stored or measured. */
   private readonly finishing = new Set<Promise<unknown>>();
-  /** Jobs that are paused because their sender does not answer. */
-  private readonly silent = new Set<string>();
 
   constructor(
     private readonly parts: QueueParts,
@@ -90,18 +88,19 @@ export class LiveJobs {
       if (!strokes.isEnded) strokes.end();
     });
     strokes.record = record;
-    const { job, ended } = this.plots.startLive(id, strokes);
+    const running = this.plots.startLive(id, strokes);
+    const ended = running.finished.then(() => this.jobs.get(id));
     const stored = ended.then(() => record.close());
     this.finish(stored.then(() => this.measure(id)));
     const isPaused = (): boolean => this.jobs.get(id).state === "paused";
     return {
-      job,
+      job: running.job,
       strokes,
       ended,
       get isPaused() {
         return isPaused();
       },
-      hold: (isSilent) => this.hold(id, isSilent),
+      hold: (isSilent) => this.hold(id, isSilent, running.pauseWords === SENDER_SILENT),
       senderLost: () => this.senderLost(id, strokes),
     };
   }
@@ -111,16 +110,14 @@ export class LiveJobs {
     await Promise.all(this.finishing);
   }
 
-  private hold(id: string, isSilent: boolean): void {
+  /** `isHeld`: it was paused by this, and no user has stopped or resumed it since. */
+  private hold(id: string, isSilent: boolean, isHeld: boolean): void {
     const { state } = this.jobs.get(id);
-    if (isSilent && state === "plotting" && !this.silent.has(id)) {
-      this.silent.add(id);
-      this.plots.pause(id, SENDER_SILENT);
-    } else if (!isSilent && state === "paused" && this.silent.delete(id)) this.plots.resume(id);
+    if (isSilent && state === "plotting" && !isHeld) this.plots.pause(id, SENDER_SILENT);
+    else if (!isSilent && state === "paused" && isHeld) this.plots.resume(id);
   }
 
   private senderLost(id: string, strokes: LiveStrokes): void {
-    this.silent.delete(id);
     if (strokes.isEnded || strokes.hasFailed || ENDED_STATES.includes(this.jobs.get(id).state)) return;
     strokes.end();
     if (strokes.isAllDrawn) return;

@@ -41,7 +41,7 @@ interface Running {
   readonly notes: string[];
   /** Aborted when the plot is cancelled or left. */
   readonly abort: AbortController;
-  /** Why it is being paused, if the user has not asked for it. */
+  /** Why it is paused or being paused, if no user has asked for it. */
   pauseWords: string | null;
   /** Ended because the program stops. */
   isLeft: boolean;
@@ -103,12 +103,10 @@ export class RunningPlots {
     return started;
   }
 
-  /** Starts a job whose strokes are still being received. `ended` resolves with the job at its end. */
-  startLive(id: string, live: LiveStrokes): { readonly job: Job; readonly ended: Promise<Job> } {
+  /** Starts a job whose strokes are still being received. */
+  startLive(id: string, live: LiveStrokes): Readonly<Pick<Running, "job" | "pauseWords" | "finished">> {
     const plotter = this.freePlotter(this.jobs.get(id));
-    const job = this.jobs.apply(id, { type: "start" });
-    const { finished } = this.begin(plotter, job, live);
-    return { job, ended: finished.then(() => this.jobs.get(id)) };
+    return this.begin(plotter, this.jobs.apply(id, { type: "start" }), live);
   }
 
   /** Starts an interrupted or cancelled job at its place, held: nothing moves until it is resumed. */
@@ -144,6 +142,7 @@ export class RunningPlots {
   /** Stops without slowing down; afterwards the job is held. While it is still being planned nothing moves. */
   async emergencyStop(id: string): Promise<Job> {
     const running = this.runningOf(id, ["plotting", "paused"], "stopped");
+    running.pauseWords = null;
     if (running.run === null) {
       running.beginsHeld = true;
       return this.jobs.get(id);
@@ -195,6 +194,7 @@ export class RunningPlots {
 
   resume(id: string): Job {
     const running = this.runningOf(id, ["paused"], "resumed");
+    running.pauseWords = null;
     if (running.run === null) running.beginsHeld = false;
     else this.ask(running, this.resumeRun(running, running.run));
     return this.jobs.note(id, "Resuming.");
@@ -203,6 +203,7 @@ export class RunningPlots {
   cancel(id: string): Job {
     const running = this.running.get(this.jobs.get(id).plotterId);
     if (running?.job.id !== id) return this.cancelled(id);
+    running.pauseWords = null;
     running.abort.abort();
     if (running.run !== null) this.ask(running, running.run.cancel());
     return this.jobs.note(id, "Cancelling: the pen lifts and goes home.");
@@ -370,7 +371,7 @@ export class RunningPlots {
       this.jobs.save({ ...job, place, ...(isNewWait ? { wait, message: penWords(wait) } : {}) });
     } else if (!held && job.state === "paused") {
       running?.timer.release(this.parts.nowIso());
-      if (running) Object.assign(running, { isStopped: false, pauseWords: null });
+      if (running) running.isStopped = false;
       this.journals.keepPlace(job);
       this.jobs.apply(id, { type: "release" }, { place: null });
     }

@@ -54,6 +54,32 @@ describe("a live job", () => {
     );
   }, 200_000);
 
+  it.each(["emergency stop", "resume and pause"])(
+    "stays as it is after a %s while its sender did not answer, when that answers again",
+    async (what) => {
+      const opened = openQueueIn(folderOfTest());
+      const live = await opened.queue.live.begin("virtual", {});
+      const { id } = live.job;
+      const run = await opened.nextRun();
+      live.hold(true);
+      expect(opened.queue.get(id).state).toBe("paused");
+      if (what === "emergency stop") await opened.queue.plots.emergencyStop(id);
+      else {
+        opened.queue.plots.resume(id);
+        await settled();
+        live.hold(false);
+        opened.queue.plots.pause(id);
+      }
+      const asked = run.asked.length;
+      live.hold(false);
+      await settled();
+      expect(run.asked.slice(asked)).toEqual([]);
+      expect(opened.queue.get(id).state).toBe("paused");
+      run.end({ kind: "done" });
+      await opened.close();
+    },
+  );
+
   it("goes on when its sender answers again, also if that is while the pen is still coming to rest", async () => {
     const opened = openQueueIn(folderOfTest());
     const live = await opened.queue.live.begin("virtual", {});
