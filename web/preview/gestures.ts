@@ -76,6 +76,8 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
   const onMove = (event: PointerEvent): void => {
     const now = placeOf(event);
     const before = pointers.get(event.pointerId);
+    // It was let go where this page was not told of it, for example over another window.
+    if (before && event.buttons === 0) return onUp(event);
     if (!before) {
       if (event.pointerType !== "touch") target.hover(now);
       return;
@@ -131,6 +133,7 @@ export const listenForGestures = (element: HTMLElement, target: GestureTarget): 
   element.addEventListener("pointermove", onMove, { signal });
   element.addEventListener("pointerup", onUp, { signal });
   element.addEventListener("pointercancel", onUp, { signal });
+  element.addEventListener("lostpointercapture", onUp, { signal });
   element.addEventListener("pointerleave", () => target.hover(null), { signal });
   element.addEventListener("wheel", onWheel, { signal, passive: false });
   if (!target.draws) element.addEventListener("dblclick", target.fit, { signal });

@@ -38,7 +38,7 @@ export class PenPointer {
   take(event: PointerEvent, placeOf: (event: MouseEvent) => Point): boolean {
     if (event.type === "pointerdown") return this.down(event, placeOf);
     const { pointerId: id } = event;
-    const isOver = event.type !== "pointermove";
+    const isOver = event.type !== "pointermove" || event.buttons === 0;
     if (isOver) this.moving.delete(id);
     if (this.ignored.has(id)) {
       if (isOver) this.ignored.delete(id);

@@ -75,6 +75,37 @@ describe("a pointer on a sheet that is drawn on", () => {
     expect(on.view()).toEqual({ scale: 1, offsetX: 0, offsetY: 0 });
   });
 
+  it.each([
+    [
+      "loses it to another window",
+      (on: ReturnType<typeof sheet>) => on.send("lostpointercapture", { pointerId: 1 }),
+    ],
+    [
+      "hears of it again when its button is up",
+      (on: ReturnType<typeof sheet>) =>
+        on.send("pointermove", {
+          clientX: 300,
+          clientY: 200,
+          pointerId: 1,
+          pointerType: "mouse",
+          buttons: 0,
+        }),
+    ],
+  ])(
+    "ends the stroke of a mouse that was let go elsewhere when the sheet %s, and draws the next one",
+    (_how, letGo) => {
+      const on = sheet();
+      on.pointer("down", 100, 100, 1, "mouse");
+      on.pointer("move", 130, 100, 1, "mouse");
+      letGo(on);
+      expect(on.seen.open).toBe(0);
+      on.pointer("move", 140, 150, 1, "mouse");
+      line(on, "mouse");
+      expect(on.seen.strokes.map(({ length }) => length)).toEqual([2, 4]);
+      expect(on.seen.open).toBe(0);
+    },
+  );
+
   it("draws all points that the browser has put together into one event", () => {
     const on = sheet();
     on.pointer("down", 0, 0, 1, "pen");
