@@ -397,9 +397,16 @@ export function mustReach(xy: ArrayLike<number>, machine: DrawnMachine): void {
 
 /** Points as x, y, x, y … */
 export function flat(points: LivePoints): ArrayLike<number> {
-  const xy = ArrayBuffer.isView(points) ? points : Array.isArray(points) ? points.flat() : null;
+  const xy = ArrayBuffer.isView(points) ? points : pairsOf(points);
   if (xy !== null && xy.length > 0 && xy.length % 2 === 0) return xy as ArrayLike<number>;
   throw new TypeError(
     "a stroke is a list of points [[x, y], [x, y], …], or x, y, x, y … in a Float64Array, with at least one point",
   );
+}
+
+/** Null: not all are pairs. */
+function pairsOf(points: unknown): unknown[] | null {
+  if (!Array.isArray(points)) return null;
+  const list: readonly unknown[] = Array.from(points);
+  return list.every((point) => Array.isArray(point) && point.length === 2) ? list.flat() : null;
 }

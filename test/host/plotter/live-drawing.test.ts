@@ -319,6 +319,18 @@ describe("a live drawing", () => {
         ]),
       ).rejects.toMatchObject({ code: "out-of-bounds" });
       await expect(live.stroke([])).rejects.toThrow(TypeError);
+      for (const wrong of [
+        [
+          [1, 2, 3],
+          [4, 5, 6],
+        ],
+        [[1, 2, 3, 4]],
+        [10, 10, 20, 20],
+        [[1, 2], , [3, 4]],
+        "1 2",
+      ]) {
+        await expect(live.stroke(wrong as unknown as Line)).rejects.toThrow(TypeError);
+      }
       await expect(live.lineTo(NaN, 1)).rejects.toThrow(RangeError);
       await expect(plotter.plot([line])).rejects.toMatchObject({ code: "busy" });
       await live.stroke(Float64Array.from(line.flat()));
