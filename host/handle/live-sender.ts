@@ -28,6 +28,13 @@ export type OpenLiveLink = (
   lost: (error: PlotwrightError) => void,
 ) => Promise<LiveLink>;
 
+interface Undoing {
+  /** Points that were not sent yet. */
+  readonly points: number;
+  readonly resolve: (undone: LiveUndone) => void;
+  readonly reject: (error: Error) => void;
+}
+
 interface Queued {
   readonly message: LiveMessage;
   points: number;
@@ -57,8 +64,8 @@ export class LiveSender {
   private failure: Error | null = null;
   /** Sends the queue. */
   private timer: ReturnType<typeof setTimeout> | null = null;
-  private readonly undoing: { readonly points: number; readonly resolve: (undone: LiveUndone) => void }[] =
-    [];
+  /** Undos that the plotter has not answered. */
+  private undoing: Undoing[] = [];
   private readonly waiters = new Waiters();
   private readonly listeners = new Set<(report: LiveReport) => void>();
 
@@ -141,8 +148,8 @@ export class LiveSender {
       this.strokeCount--;
       return Promise.resolve({ takenBack: points, left: 0 });
     }
-    return new Promise((resolve) => {
-      this.undoing.push({ points, resolve });
+    return new Promise((resolve, reject) => {
+      this.undoing.push({ points, resolve, reject });
       this.add({ undo: true }, 0);
     });
   }
@@ -172,7 +179,9 @@ export class LiveSender {
 
   /** Gives up the connection: the plotter then has lost its sender. */
   close(): void {
-    this.fail(new PlotwrightError("disconnected", "The connection of this live drawing was closed."));
+    this.fail(
+      new PlotwrightError("disconnected", "The connection of this live drawing was closed. Its job waits."),
+    );
     this.link.close();
   }
 
@@ -234,14 +243,23 @@ export class LiveSender {
     const { state, message } = job;
     this.settle.resolve(job);
     this.failure ??= state === "done" ? liveEnded() : endedOtherwise(state, message);
-    this.waiters.end(state === "done" ? true : this.failure);
+    this.stop(state === "done" ? true : this.failure);
     this.link.close();
   }
 
   private fail(error: Error): void {
     this.failure ??= error;
-    this.settle.reject(error);
-    this.waiters.end(error);
+    this.settle.reject(this.failure);
+    this.stop(this.failure);
+  }
+
+  /** Nothing will be sent or answered any more. */
+  private stop(how: Error | true): void {
+    if (this.timer !== null) clearTimeout(this.timer);
+    this.queue = [];
+    for (const { reject } of this.undoing) reject(this.failure!);
+    this.undoing = [];
+    this.waiters.end(how);
   }
 
   private check(xy: ArrayLike<number>): void {

@@ -119,7 +119,10 @@ export interface PlotterHandle {
   moveTo(xMm: number, yMm: number): Promise<void>;
   /** Moves home with the pen up; a machine with limit switches finds home with them. */
   home(): Promise<void>;
-  /** Closes the connection. A plot of this program is stopped at once, with the pen up; one of a server continues. */
+  /**
+   * Closes the connection. A plot of this program is stopped at once, with the pen up. One of a server continues; a live
+   * one is paused there, with the pen up.
+   */
   close(): Promise<void>;
 }
 

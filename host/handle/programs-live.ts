@@ -23,6 +23,8 @@ export interface BegunLive {
 }
 
 export class ProgramsLive implements LiveDrawing {
+  private isEnding = false;
+
   constructor(
     private readonly strokes: TakesStrokes,
     private readonly ended: () => Promise<PlotResult>,
@@ -48,8 +50,10 @@ export class ProgramsLive implements LiveDrawing {
     return this.strokes.idle();
   }
 
+  /** Called again, it resolves with the same end. */
   async end(): Promise<PlotResult> {
-    this.strokes.end();
+    if (!this.isEnding) this.strokes.end();
+    this.isEnding = true;
     return this.ended();
   }
 

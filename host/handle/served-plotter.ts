@@ -64,6 +64,7 @@ interface Followed {
 class ServerHandle extends BaseHandle {
   private readonly end = new AbortController();
   private followed: Followed | null = null;
+  private sender: LiveSender | null = null;
   private job: Job | null = null;
   /** Why the server's state is not known, and since when. */
   private trouble: { readonly message: string; readonly sinceMs: number } | null = null;
@@ -124,6 +125,7 @@ class ServerHandle extends BaseHandle {
     const { name } = options;
     const settings = givenOf(options);
     const liftAfterMs = liftAfterMsOf(options);
+    if (this.end.signal.aborted) throw closed();
     plot.throwIfStopped();
     const { url, key } = this.access;
     const socket = liveSocket(this.openSocket, url, this.plotter.id, key);
@@ -135,6 +137,9 @@ class ServerHandle extends BaseHandle {
       if (state !== "done") throw endedOtherwise(state, message);
       return { plottedS: plottedS ?? elapsedS, warnings };
     });
+    this.sender = strokes;
+    // If the server is lost for this program, nothing more of it may be drawn.
+    ended.catch(() => strokes.close());
     return { strokes, ended };
   }
 
@@ -156,7 +161,7 @@ class ServerHandle extends BaseHandle {
   }
 
   protected plotEnded(): void {
-    this.followed = this.job = null;
+    this.followed = this.sender = this.job = null;
   }
 
   async pen(where: "up" | "down" | number): Promise<void> {
@@ -173,6 +178,7 @@ class ServerHandle extends BaseHandle {
 
   close(): Promise<void> {
     this.end.abort();
+    this.sender?.close();
     this.followed?.reject(
       new PlotwrightError("disconnected", "The connection was closed. The plot continues on the server."),
     );

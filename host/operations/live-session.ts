@@ -21,6 +21,8 @@ export class LiveSession {
   private taken = 0;
   /** When the points came that are not drawn: how many there were then. */
   private readonly arrivals: { readonly points: number; readonly atMs: number }[] = [];
+  /** Messages that brought neither a point nor the end of a stroke. Of the others there are as many as there is room for. */
+  emptyMessages = 0;
   private lastProgress = "";
   private timer: ReturnType<typeof setInterval> | null = null;
 
@@ -69,6 +71,8 @@ export class LiveSession {
       throw new PlotwrightError("bad-setting", "A live drawing starts with begin. Wait until it has begun.");
     }
     const { strokes } = this.live;
+    const { allPoints } = strokes;
+    const ends = "penUp" in message && strokes.isOpen;
     if ("lineTo" in message) {
       const points = isPoint(message.lineTo) ? [message.lineTo] : message.lineTo;
       for (const [x, y] of points) this.add(1, () => strokes.lineTo(x, y));
@@ -80,6 +84,7 @@ export class LiveSession {
       this.report({ type: "undone", ...undone });
       this.progress();
     } else strokes.end();
+    if (strokes.allPoints <= allPoints && !ends) this.emptyMessages++;
   }
 
   private start(wanted: LiveBegin): void {
@@ -150,7 +155,8 @@ export class LiveSession {
     const { allDrawn, isAllDrawn } = this.live!.strokes;
     const next = arrivals.findIndex(({ points }) => points > allDrawn);
     arrivals.splice(0, next < 0 ? arrivals.length : next);
-    return isAllDrawn || arrivals.length === 0 ? 0 : Math.round(Date.now() - arrivals[0].atMs);
+    // The clock of the computer may be set back.
+    return isAllDrawn || arrivals.length === 0 ? 0 : Math.max(0, Math.round(Date.now() - arrivals[0].atMs));
   }
 
   /** Points that were taken back will not be drawn. */

@@ -12,6 +12,7 @@ import { LiveSession } from "../../host/operations/live-session.js";
 import { LIVE_PROTOCOL } from "../../host/handle/live-socket.js";
 import { mustKnow, parseWith } from "../../host/parse-with.js";
 import { drawLine } from "../../host/plotter/live-lines.js";
+import type { LiveStrokes } from "../../host/plotter/live-strokes.js";
 import type { JobQueue } from "../../host/queue/job-queue.js";
 import type { LiveJob } from "../../host/queue/live-jobs.js";
 import type { OperatorLock } from "../security/operator-lock.js";
@@ -26,10 +27,12 @@ const PING_MS = 100;
 const SILENT_MS = 400;
 /** After this time it counts as lost. */
 const LOST_MS = 10_000;
-/** Messages of one sender in a second; one message may have many points. */
-const MAX_MESSAGES_PER_S = 2_000;
+/** Messages of one sender in a second that add nothing to the drawing. */
+const MAX_EMPTY_PER_S = 2_000;
 /** A sender that does not read its reports is disconnected. */
 const MAX_UNREAD_BYTES = 1_000_000;
+/** A request that is silent for this time is probed each second, and ends after ten probes without an answer. */
+const KEEP_ALIVE_MS = 1_000;
 /** Time for a plot to stop when the server ends. */
 const CLOSE_MS = 10_000;
 /** Longest line of a body, and how many lines the answer names that could not be drawn. */
@@ -149,7 +152,7 @@ function followSocket(
   const session = new LiveSession(begin, report);
   let heardMs = performance.now();
   let tickedMs = heardMs;
-  let messages = 0;
+  let emptyBefore = 0;
   let secondMs = heardMs;
   const heard = (): void => {
     heardMs = performance.now();
@@ -169,14 +172,12 @@ function followSocket(
     heard();
     if (heardMs - secondMs > 1_000) {
       secondMs = heardMs;
-      messages = 0;
+      emptyBefore = session.emptyMessages;
     }
-    messages++;
-    if (messages > MAX_MESSAGES_PER_S) {
-      session.fail(
-        new PlotwrightError("busy", "Too many messages: send the points of a moment in one message."),
-      );
-    } else session.take(isBinary ? null : parsed(data));
+    session.take(isBinary ? null : parsed(data));
+    if (session.emptyMessages - emptyBefore > MAX_EMPTY_PER_S) {
+      session.fail(new PlotwrightError("busy", "Too many messages that add nothing to the drawing."));
+    }
   });
   // A frame that is too large, or damaged; "close" follows.
   socket.on("error", () => undefined);
@@ -205,6 +206,8 @@ const drawBody =
     const live = await queue.live.begin(request.params["id"], wanted);
     const { strokes, ended } = live;
     endless.add(request.socket);
+    // If its network is gone without a word, the connection ends after some seconds.
+    request.socket.setKeepAlive(true, KEEP_ALIVE_MS);
     response.on("close", () => {
       endless.delete(request.socket);
       live.senderLost();
@@ -212,26 +215,40 @@ const drawBody =
     if (request.socket.destroyed) live.senderLost();
     // A connection whose body is not read to its end can't be used again.
     response.setHeader("Connection", "close");
-    const refused: { readonly line: number; readonly message: string }[] = [];
-    let line = 0;
-    try {
-      for await (const text of linesOf(bytesOf(request))) {
-        line++;
-        try {
-          drawLine(text, strokes);
-          await strokes.room();
-        } catch (error) {
-          if (strokes.hasFailed || !(error instanceof PlotwrightError)) throw error;
-          if (refused.length < MAX_REFUSED) refused.push({ line, message: error.message });
-        }
-      }
-      strokes.end();
-    } catch (error) {
+    const refused: Refused[] = [];
+    const reading = readLines(bytesOf(request), strokes, refused).catch((error: unknown) => {
       live.senderLost();
       if (!strokes.hasFailed) throw error;
-    }
-    response.json({ job: await ended, refused });
+    });
+    // A job that is cancelled ends although more lines may come.
+    const job = await Promise.race([ended, reading.then(() => ended)]);
+    response.json({ job, refused });
   };
+
+interface Refused {
+  readonly line: number;
+  readonly message: string;
+}
+
+/** Adds the lines of a body to a live drawing, as fast as there is room. `refused` gets those that can't be drawn. */
+async function readLines(
+  chunks: AsyncIterable<Uint8Array>,
+  strokes: LiveStrokes,
+  refused: Refused[],
+): Promise<void> {
+  let line = 0;
+  for await (const text of linesOf(chunks)) {
+    line++;
+    try {
+      drawLine(text, strokes);
+      await strokes.room();
+    } catch (error) {
+      if (strokes.hasFailed || !(error instanceof PlotwrightError)) throw error;
+      if (refused.length < MAX_REFUSED) refused.push({ line, message: error.message });
+    }
+  }
+  strokes.end();
+}
 
 async function* linesOf(chunks: AsyncIterable<Uint8Array>): AsyncGenerator<string> {
   const decoder = new TextDecoder();

@@ -95,6 +95,44 @@ describe("a live drawing on a server", () => {
   );
 
   it(
+    "waits with its pen up when the program closes the plotter, which then begins nothing more",
+    async () => {
+      await plotter.close();
+      await server.close();
+      await start(1);
+      const live = await plotter.live();
+      await live.stroke(wave(30, 200));
+      await plotter.close();
+      const words = {
+        code: "disconnected",
+        message: expect.stringMatching(/closed. Its job waits/) as string,
+      };
+      await expect(live.lineTo(1, 1)).rejects.toMatchObject(words);
+      await expect(live.end()).rejects.toMatchObject(words);
+      await expect.poll(async () => (await jobs())[0].state).toBe("paused");
+      await expect(plotter.live()).rejects.toMatchObject({ code: "disconnected" });
+      expect(await jobs()).toHaveLength(1);
+    },
+    LIMIT_MS,
+  );
+
+  it(
+    "takes as many short strokes at once as there is room for points, and has one end however often it is ended",
+    async () => {
+      const live = await plotter.live();
+      for (let i = 0; i < 2_500; i++) {
+        void live.lineTo(20 + (i % 50) / 10, 20 + i / 500);
+        live.penUp();
+      }
+      const ends = await Promise.all([live.end(), live.end()]);
+      expect(ends[0]).toBe(ends[1]);
+      expect(await live.end()).toBe(ends[0]);
+      expect(drawingText().match(/<path/g)).toHaveLength(2_500);
+    },
+    LIMIT_MS,
+  );
+
+  it(
     "takes its lines from the body of a request, and answers when all is drawn",
     async () => {
       const body = "20 20\n21 21\n-5 3\n\n[[30, 30], [40, 40]]\nhello\n50 50";

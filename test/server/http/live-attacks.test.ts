@@ -1,6 +1,7 @@
 /** Attacks on the WebSocket of live drawings, which is the one upgrade that the server allows. */
 import { request as httpRequest } from "node:http";
-import { afterEach, beforeEach, describe, expect, it } from "vitest";
+import { Socket } from "node:net";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { WebSocket } from "ws";
 import { DEFAULT_PLOT_SETTINGS, liveReportSchema, type LiveReport } from "../../../src/schema/index.js";
 import { startApp, type TestApp } from "../../support/servers/app.js";
@@ -256,5 +257,27 @@ describe("a request with the lines of a live drawing", () => {
       run.end({ kind: "done" });
       await expect.poll(() => state().every((one) => one === "done")).toBe(true);
     }
+  });
+
+  it("is answered when its job is cancelled, although more lines may come", async () => {
+    const { request, answered } = sending();
+    request.write("10 10\n20 10\n");
+    const run = await app.plotter.nextRun();
+    await expect.poll(() => run.start.live?.pointCount).toBe(2);
+    app.queue.plots.cancel(app.queue.list()[0].id);
+    expect(await answered).toBe(200);
+    request.destroy();
+  });
+
+  it("is asked for by the network itself whether its sender is still there", async () => {
+    const kept = vi.spyOn(Socket.prototype, "setKeepAlive");
+    const { request } = sending();
+    request.write("10 10\n");
+    const run = await app.plotter.nextRun();
+    await expect.poll(() => run.start.live?.pointCount).toBe(1);
+    expect(kept.mock.calls).toContainEqual([true, 1_000]);
+    kept.mockRestore();
+    request.destroy();
+    await expect.poll(() => run.asked).toEqual(["pause"]);
   });
 });

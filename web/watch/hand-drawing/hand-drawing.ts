@@ -228,6 +228,7 @@ export class HandDrawing implements HandPen {
 
   private ended(job: Job): void {
     if (job.state === "interrupted" || job.state === "failed") return this.broken(job.message ?? "");
+    this.live = null;
     this.page.store.setState({ watchedId: job.id });
     this.leave();
   }

@@ -264,6 +264,22 @@ describe("undo of a drawing by hand", () => {
     expect(close(plotter.got)).toEqual([LINE, OTHER, LINE]);
     expect(drawing.strokes.count).toBe(2);
   });
+
+  it("loses nothing that is drawn before it is answered, if the drawing has ended meanwhile", async () => {
+    const { stroke, plotter, drawing } = open();
+    stroke(LINE);
+    await settled();
+    const ended = new Error("ended");
+    plotter.sender.undo = () => Promise.reject(ended);
+    plotter.sender.lineTo = () => {
+      throw ended;
+    };
+    plotter.end(makeJob("live", { state: "cancelled" }));
+    const undone = drawing.undo();
+    stroke(OTHER);
+    await undone;
+    expect(drawing.strokes.count).toBe(2);
+  });
 });
 
 describe("the end of a drawing by hand", () => {
