@@ -189,9 +189,11 @@ export {
   firmwareAdvice,
   firmwareFor,
   isPlannedAlike,
-  usbIds,
+  allUsbIds,
+  hasUsbId,
+  usbIdsOf,
 } from "./drivers/registry.js";
-export { driverOf } from "./drivers/connecting.js";
+export { allDrivers, driverOf } from "./drivers/connecting.js";
 export { scaledClock } from "./drivers/transport.js";
 export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
 export type { GrblController } from "./drivers/grbl/model/grbl-controller.js";
@@ -203,6 +205,7 @@ export type {
   PlaybackGrowth,
   PenBefore,
   SupplyState,
+  ControllerDescription,
   UsbId,
   VirtualBench,
   VirtualMachine,

@@ -12,7 +12,7 @@ import {
 import { parseWith } from "../parse-with.js";
 import type { PlotPlanner } from "../planning/planning.js";
 import { planAndCompile } from "../planning/stages.js";
-import type { Devices } from "../plotter/connected-machine.js";
+import type { Devices } from "../plotter/devices.js";
 import { FIRST_PLOTTER, NamedPlotter } from "../plotter/named-plotter.js";
 import type { PlotProgress, PlotterPort, RunningPlot } from "../plotter/plotter-port.js";
 import {

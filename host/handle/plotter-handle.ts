@@ -128,7 +128,7 @@ export interface PlotterHandle {
 
 /** Which plotter to open: exactly one of the first four. */
 export interface PlotterChoice {
-  /** The path of a serial port, or "auto": the first EiBotBoard. Only outside browsers. */
+  /** The path of a serial port, or "auto": the first board of the machine's controller. Only outside browsers. */
   readonly device?: string;
   /** A port of `navigator.serial`, or true: the user chooses one, which needs a click. Only in browsers. */
   readonly webSerial?: unknown;

@@ -107,6 +107,7 @@ const plotterOperations = ({ queue, registry, log }: HostParts) => {
   const findFree = (id: string): PlotterPort => findFreePlotter(registry.ports, queue, id);
   return {
     devices: async () => ({ devices: await registry.devices() }),
+    ask: async () => ({ devices: await registry.askDevices() }),
     add: (wanted) => {
       const plotter = registry.add(wanted);
       log(`plotter "${plotter.name}" added`);

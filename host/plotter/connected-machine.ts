@@ -1,25 +1,34 @@
 /** Finds and opens a plotter, real or virtual, and lets its driver identify it. */
 import { PlotwrightError, type Clock, type Transport } from "../../src/index.js";
 import {
+  allDrivers,
   scaledClock,
+  usbIdsOf,
+  type ControllerDescription,
   type Driver,
   type Machine,
   type MachineEvents,
   type UsbId,
   type VirtualMachine,
 } from "../../src/internal.js";
+import { askPort } from "./ask-ports.js";
+import type { Devices, FoundBoard } from "./devices.js";
 
 interface PlotterConnectOptions {
   readonly driver: Driver;
-  /** USB ids that only this driver's boards use. */
-  readonly usbIds: readonly UsbId[];
-  /** "auto": the first board on USB with one of `usbIds`, else the virtual one. "virtual", or a serial port's path. */
+  readonly controller: Pick<ControllerDescription, "usbIds" | "candidateIds">;
+  /**
+   * "auto": the first board on USB that is certainly one of the controller's, else the first candidate that answers, else the
+   * virtual one. "virtual", or a serial port's path.
+   */
   readonly device: string;
   readonly devices: Devices;
   /** Ports that "auto" skips. */
   readonly isTaken?: ((path: string) => boolean) | undefined;
   /** "auto" with no board on USB: true for the virtual one, false to reject with `no-board`. */
   readonly virtualIfNone: boolean;
+  /** A board has been connected before: the virtual one is never used in its place. */
+  readonly hadBoard: boolean;
   readonly clock: Clock;
   /** How many times faster than real time the machine runs. Always 1 for a real one. */
   readonly speed: number;
@@ -43,34 +52,57 @@ export interface ConnectedMachine {
  */
 export async function connect(options: PlotterConnectOptions): Promise<ConnectedMachine> {
   const path = options.device === "auto" ? await firstBoard(options) : options.device;
-  if (path === null && !options.virtualIfNone) throw notFound(options);
+  if (path === null && (options.hadBoard || !options.virtualIfNone)) throw notFound(options);
   if (path === null || path === "virtual") {
     const machine = await identified(options.virtualMachine().transport(), options);
     return { machine, kind: "virtual", device: null, serialNumber: null };
   }
   const transport = await options.devices.open(path);
-  const machine = await identified(transport, options).catch((error: unknown) => {
-    throw atDevice(error, path);
+  const machine = await identified(transport, options).catch(async (error: unknown) => {
+    throw atDevice((await otherController(error, path, options)) ?? error, path);
   });
   return { machine, kind: "serial", device: path, serialNumber: await serialNumberAt(path, options) };
+}
+
+/** The error if a board of another controller is at a port that has never had one of this controller; null: none is. */
+async function otherController(
+  error: unknown,
+  path: string,
+  options: PlotterConnectOptions,
+): Promise<PlotwrightError | null> {
+  const isNotIdentified =
+    error instanceof PlotwrightError && (error.code === "no-board" || error.code === "board-timeout");
+  if (!isNotIdentified || options.hadBoard) return null;
+  const others = (await allDrivers()).map(({ driver }) => driver).filter((one) => one !== options.driver);
+  const { answer } = await askPort(path, others, options);
+  if (answer === null) return null;
+  return new PlotwrightError(
+    "no-board",
+    `${answer} answers on this port, but the model has another controller: choose yours, on the page under Plotter, in a command with --machine.`,
+    { cause: error },
+  );
 }
 
 /** A port can be used without it, so errors are ignored. */
 async function serialNumberAt(
   path: string,
-  { usbIds, devices }: PlotterConnectOptions,
+  { controller, devices }: PlotterConnectOptions,
 ): Promise<string | null> {
-  const boards = await devices.find(usbIds).catch(() => []);
+  const boards = await devices.find(usbIdsOf(controller)).catch(() => []);
   return boards.find((board) => board.path === path)?.serialNumber ?? null;
 }
 
-async function firstBoard({
-  usbIds,
-  devices,
-  isTaken = () => false,
-}: PlotterConnectOptions): Promise<string | null> {
-  const boards = await devices.find(usbIds);
-  return boards.find(({ path }) => !isTaken(path))?.path ?? null;
+async function firstBoard(options: PlotterConnectOptions): Promise<string | null> {
+  const { controller, driver, devices, isTaken = () => false, clock } = options;
+  const free = async (ids: readonly UsbId[]): Promise<readonly FoundBoard[]> =>
+    ids.length === 0 ? [] : (await devices.find(ids)).filter(({ path }) => !isTaken(path));
+  const [certain] = await free(controller.usbIds);
+  if (certain) return certain.path;
+  for (const { path } of await free(controller.candidateIds)) {
+    const { answer } = await askPort(path, [driver], { devices, clock });
+    if (answer !== null) return path;
+  }
+  return null;
 }
 
 function identified(transport: Transport, options: PlotterConnectOptions): Promise<Machine> {
@@ -84,30 +116,13 @@ function atDevice(error: unknown, device: string): unknown {
   return new PlotwrightError(error.code, `${device}: ${error.message}`, { cause: error });
 }
 
-const notFound = ({ usbIds }: PlotterConnectOptions): PlotwrightError =>
+const notFound = ({ controller }: PlotterConnectOptions): PlotwrightError =>
   new PlotwrightError(
     "no-board",
-    usbIds.length === 0
-      ? "This machine's controller can't be detected automatically: choose its port: on the page in Sharing, Plotters."
+    controller.candidateIds.length > 0
+      ? "No plotter of this model answers on any USB port: check its cable and its power, and close other programs that use it."
       : "The plotter is no longer plugged in: check its USB cable and its power.",
   );
 
 export const connectFailed = (cause: unknown): PlotwrightError =>
   new PlotwrightError("internal", "Connecting to the board failed because of an internal error.", { cause });
-
-/** A board on a serial port of this computer. */
-export interface FoundBoard {
-  /** The name by which `open` opens it; on the server the path to pass to `--device`. */
-  readonly path: string;
-  /** Manufacturer, to show to users. */
-  readonly description: string;
-  readonly serialNumber: string | null;
-}
-
-/** The serial ports of this computer. The server opens them with serialport, the page with Web Serial. */
-export interface Devices {
-  /** All boards on USB with these ids, sorted by path. */
-  find(ids: readonly UsbId[]): Promise<readonly FoundBoard[]>;
-  /** Opens and locks a port. Rejects with `no-board`, `not-allowed` or `busy`. */
-  open(path: string): Promise<Transport>;
-}

@@ -67,7 +67,7 @@ export class PlotterConnection {
   /** Settings with another controller, to be used when nothing moves. */
   private chosen: PlotSettings | null = null;
   private closed = false;
-  /** After a real board was connected, the virtual board is never used in its place. */
+  /** A real board was connected. */
   private hadSerial = false;
   private readonly supply: SupplyWatch;
   private virtual: VirtualMachine | null = null;
@@ -275,11 +275,12 @@ export class PlotterConnection {
         device: this.options.device,
         devices: this.options.devices,
         isTaken: this.options.isTaken,
-        virtualIfNone: this.options.virtualIfNone !== false && !this.hadSerial,
+        virtualIfNone: this.options.virtualIfNone !== false,
+        hadBoard: this.hadSerial,
         clock: this.clock,
         speed: this.options.virtualSpeed ?? 1,
         driver,
-        usbIds: controllerOf(machine).usbIds,
+        controller: controllerOf(machine),
         virtualMachine: () => (this.virtual ??= this.virtualOf(driver, machine)),
         events: {
           changed: () => this.machineChanged(),

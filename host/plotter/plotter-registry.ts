@@ -7,6 +7,7 @@ import { machineOf } from "../../src/internal.js";
 import {
   DEFAULT_PLOT_SETTINGS,
   plotterSettingsSchema,
+  type AskedDevice,
   type Device,
   type NewPlotter,
   type Plotter,
@@ -17,7 +18,8 @@ import {
 } from "../../src/schema/index.js";
 import type { ManagedPlotter, PlotterPort } from "./plotter-port.js";
 import type { PlotterRow, PlotterStore } from "../storage.js";
-import type { FoundBoard } from "./connected-machine.js";
+import type { AskedPort } from "./ask-ports.js";
+import type { FoundBoard } from "./devices.js";
 import { settingsOfPlotter, type SettingsOfPlotter, type WithMachine } from "./settings-of-plotter.js";
 
 interface RegistryParts {
@@ -30,6 +32,7 @@ interface RegistryParts {
   ) => ManagedPlotter;
   readonly withMachine: WithMachine;
   readonly findBoards: () => Promise<readonly FoundBoard[]>;
+  readonly askPorts: (isTaken: (path: string) => boolean) => Promise<readonly AskedPort[]>;
   readonly announce: (event: ServerEvent) => void;
   /** Id of the plotter that a new server starts with. */
   readonly firstId: string;
@@ -100,12 +103,32 @@ export class PlotterRegistry {
   }
 
   async devices(): Promise<Device[]> {
-    const boards = await this.parts.findBoards();
-    return boards.map(({ path, description, serialNumber }) => ({
+    return (await this.parts.findBoards()).map((board) => this.deviceOf(board));
+  }
+
+  /** Not those that plotters use: these are known. */
+  async askDevices(): Promise<AskedDevice[]> {
+    const [boards, asked] = await Promise.all([
+      this.parts.findBoards(),
+      this.parts.askPorts((path) => this.userOf(path) !== undefined),
+    ]);
+    const answers = new Map(asked.map(({ path, answer, fault }) => [path, { answer, fault }]));
+    return boards.map((board) => ({
+      ...this.deviceOf(board),
+      ...(answers.get(board.path) ?? { answer: null, fault: null }),
+    }));
+  }
+
+  private userOf(path: string): Plotter | undefined {
+    return this.list().find((plotter) => plotter.device === path);
+  }
+
+  private deviceOf({ path, description, serialNumber }: FoundBoard): Device {
+    return {
       path,
       description: serialNumber === null ? description : `${description} ${serialNumber}`,
-      inUseBy: this.list().find((plotter) => plotter.device === path)?.id ?? null,
-    }));
+      inUseBy: this.userOf(path)?.id ?? null,
+    };
   }
 
   /** Throws `conflict` if another plotter has the name or device. */

@@ -2,7 +2,7 @@
 import { PlotwrightError, type Clock } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import type { Plotter, PlotSettings } from "../../src/schema/index.js";
-import type { Devices } from "./connected-machine.js";
+import type { Devices } from "./devices.js";
 import type { PlotProgress } from "./plotter-port.js";
 
 export interface PlotterOptions {

@@ -190,8 +190,8 @@ export const COMMANDS: readonly CliCommand[] = [
   },
   {
     name: "devices",
-    about: "list the boards that are plugged in",
-    examples: ["plotwright devices --json"],
+    about: "list the boards that are plugged in, and other devices that may be one",
+    examples: ["plotwright devices --ask", "plotwright devices --json"],
     load: async () => (await list()).declareDevices,
   },
   {

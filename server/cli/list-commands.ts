@@ -1,11 +1,16 @@
 /** Commands that list boards and plotter models. */
-import type { FoundBoard } from "../../host/plotter/connected-machine.js";
-import { printableJson } from "../../src/internal.js";
+import type { FoundBoard } from "../../host/plotter/devices.js";
+import { allUsbIds, printableJson } from "../../src/internal.js";
 import { defaultDataDir } from "../storage/data-dir.js";
 import { MachineFiles } from "../storage/machine-files.js";
 import { mustBeDataFolder } from "./files.js";
 import { printed, row, type CliIo } from "./io.js";
 import { addData, addJson, type Declare } from "./options.js";
+
+interface AskOptions {
+  readonly ask?: boolean;
+  readonly json?: boolean;
+}
 
 interface ListOptions {
   readonly data?: string;
@@ -13,7 +18,8 @@ interface ListOptions {
 }
 
 export const declareDevices: Declare = (command, { io }) => {
-  addJson(command).action((options: ListOptions) => runDevices(options, io));
+  command.option("--ask", "ask them what they are (opens their ports, which restarts some devices)");
+  addJson(command).action((options: AskOptions) => runDevices(options, io));
 };
 
 export const declareMachines: Declare = (command, { io }) => {
@@ -26,15 +32,25 @@ const VIRTUAL: FoundBoard = {
   serialNumber: null,
 };
 
-async function runDevices({ json }: ListOptions, io: CliIo): Promise<void> {
-  const { findBoards } = await import("../serial/find-boards.js");
-  const boards = [...(await findBoards()), VIRTUAL];
-  if (json === true) {
+async function runDevices({ ask = false, json = false }: AskOptions, io: CliIo): Promise<void> {
+  const { NODE_PARTS } = await import("../plotter/node-parts.js");
+  const { askPorts } = await import("../../host/plotter/ask-ports.js");
+  const asked = ask ? await askPorts(NODE_PARTS) : null;
+  const boards = [...(asked ?? (await NODE_PARTS.devices.find(allUsbIds()))), VIRTUAL];
+  if (json) {
     io.out(`${printableJson(boards)}\n`);
     return;
   }
+  const answers = new Map(asked?.map(({ path, answer, fault }) => [path, answer ?? fault ?? "no answer"]));
   for (const { path, description, serialNumber } of boards) {
-    io.out(row(path, `${description}${serialNumber === null ? "" : ` (${serialNumber})`}`));
+    const answer = answers.get(path);
+    io.out(
+      row(
+        path,
+        `${description}${serialNumber === null ? "" : ` (${serialNumber})`}`,
+        ...(answer === undefined ? [] : [answer]),
+      ),
+    );
   }
 }
 

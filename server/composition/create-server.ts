@@ -24,6 +24,7 @@ import { Store } from "../storage/store.js";
 import { Access } from "../security/access.js";
 import { OperatorLock } from "../security/operator-lock.js";
 import { lanAddresses, LOCAL_NAME, pairingLinks, type PairingPaths } from "../security/network.js";
+import { askPorts } from "../../host/plotter/ask-ports.js";
 import { FIRST_PLOTTER, openNamedPlotter } from "../../host/plotter/named-plotter.js";
 import { NODE_PARTS } from "../plotter/node-parts.js";
 import { PlotterRegistry } from "../../host/plotter/plotter-registry.js";
@@ -167,6 +168,7 @@ async function openParts(
     store,
     announce,
     findBoards,
+    askPorts: (isTaken) => askPorts(NODE_PARTS, isTaken),
     withMachine,
     firstId: FIRST_PLOTTER,
     firstDevice,

@@ -1,23 +1,18 @@
-import { usbIds, type UsbId } from "../../src/internal.js";
-import type { FoundBoard } from "../../host/plotter/connected-machine.js";
+import { allUsbIds, hasUsbId, type UsbId } from "../../src/internal.js";
+import type { FoundBoard } from "../../host/plotter/devices.js";
 import { readdirSync, readFileSync, realpathSync } from "node:fs";
 import path from "node:path";
 
-export type { FoundBoard } from "../../host/plotter/connected-machine.js";
+export type { FoundBoard } from "../../host/plotter/devices.js";
 
-/** All boards on USB with these ids, sorted by path; default: those that some driver knows. */
-export async function findBoards(ids: readonly UsbId[] = usbIds()): Promise<readonly FoundBoard[]> {
+/** All devices on USB with these ids, sorted by path; default: those that may be a plotter. */
+export async function findBoards(ids: readonly UsbId[] = allUsbIds()): Promise<readonly FoundBoard[]> {
   const ports = await serialPorts();
   return ports
-    .filter((port) =>
-      ids.some(
-        ({ vendorId, productId }) =>
-          port.vendorId?.toLowerCase() === vendorId && port.productId?.toLowerCase() === productId,
-      ),
-    )
+    .filter((port) => hasUsbId(ids, port.vendorId, port.productId))
     .map((port) => ({
       path: port.path,
-      description: port.manufacturer ?? "EiBotBoard",
+      description: port.manufacturer ?? "USB device",
       serialNumber: port.serialNumber ?? null,
     }))
     .sort((a, b) => (a.path < b.path ? -1 : 1));
@@ -45,13 +40,14 @@ export interface UsbPort {
 }
 
 /**
- * The modems (ttyACM*) under `root`. Each one's `device` is a link to an interface of the USB device, and the folder
- * above it has the ids and names of the device.
+ * The modems (ttyACM*) and serial adapters (ttyUSB*) under `root`. Each one's `device` is a link to an interface of the USB
+ * device, for an adapter to a port of the interface. The folder above the interface has the ids and names of the device.
  */
 export function sysfsPorts(root = "/sys/class/tty"): readonly UsbPort[] {
   return folderNames(root).flatMap((name) => {
-    if (!name.startsWith("ttyACM")) return [];
-    const read = (file: string): string | undefined => textOf(path.join(root, name, "device"), file);
+    const up = { ttyACM: "..", ttyUSB: "../.." }[name.slice(0, 6)];
+    if (up === undefined) return [];
+    const read = (file: string): string | undefined => textOf(path.join(root, name, "device"), up, file);
     return [
       {
         path: `/dev/${name}`,
@@ -73,9 +69,9 @@ function folderNames(folder: string): readonly string[] {
 }
 
 /** Undefined if the device has no such file, or was unplugged meanwhile. */
-function textOf(device: string, file: string): string | undefined {
+function textOf(device: string, up: string, file: string): string | undefined {
   try {
-    return readFileSync(path.join(realpathSync(device), "..", file), "utf8").trim();
+    return readFileSync(path.join(realpathSync(device), up, file), "utf8").trim();
   } catch {
     return undefined;
   }

@@ -3,9 +3,9 @@
  * `registry.ts`, because a bundler splits all code that such an import and a plan share.
  */
 import type { MachineProfile } from "../machines/profile.js";
-import type { Driver } from "./driver.js";
+import type { Driver, UsbId } from "./driver.js";
 import { driver as ebb } from "./ebb/controller.js";
-import { ofKind, type ByKind } from "./registry.js";
+import { CONTROLLERS, ofKind, usbIdsOf, type ByKind } from "./registry.js";
 
 const DRIVERS: ByKind<() => Promise<Driver>> = {
   ebb: () => Promise.resolve(ebb),
@@ -14,3 +14,14 @@ const DRIVERS: ByKind<() => Promise<Driver>> = {
 
 /** The driver that connects to a machine. Rejects with `bad-setting` for an unknown controller. */
 export const driverOf = async (machine: MachineProfile): Promise<Driver> => ofKind(DRIVERS, machine)();
+
+/** All drivers, with the USB devices that may be their boards. */
+export const allDrivers = (): Promise<
+  readonly { readonly driver: Driver; readonly ids: readonly UsbId[] }[]
+> =>
+  Promise.all(
+    (Object.keys(DRIVERS) as (keyof typeof DRIVERS)[]).map(async (kind) => ({
+      driver: await DRIVERS[kind](),
+      ids: usbIdsOf(CONTROLLERS[kind]),
+    })),
+  );

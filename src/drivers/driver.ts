@@ -23,7 +23,8 @@ import type { Clock, Transport } from "./transport.js";
 /** A kind of USB device, in hexadecimal, lower case. */
 export interface UsbId {
   readonly vendorId: string;
-  readonly productId: string;
+  /** Left out: all products of that vendor. */
+  readonly productId?: string;
 }
 
 /** Static facts about a controller: available without planning and without a connection. */
@@ -36,8 +37,10 @@ export interface ControllerDescription {
   readonly contradictionOf?: (controller: Controller) => { field: string; message: string } | null;
   /** Whether a machine finds home by itself. Left out: none does. */
   readonly findsHome?: (machine: MachineProfile) => boolean;
-  /** Devices that are certainly this controller; the port "auto" takes the first. Empty: the user names the port. */
+  /** Devices that are certainly this controller; the port "auto" takes the first. */
   readonly usbIds: readonly UsbId[];
+  /** USB chips of its boards that other devices have too: "auto" asks these devices, and takes the first that answers. */
+  readonly candidateIds: readonly UsbId[];
   readonly firmware: FirmwareRules;
   /**
    * Labels of the settings that do not affect its plots, by path, such as "motion.layers.*.cornerMm". Left out: none.
@@ -53,6 +56,11 @@ export interface ControllerChoice {
 }
 
 export interface Driver {
+  /**
+   * Asks a device, which may be anything, for its name and version, such as "Grbl 1.1h". It only sends questions: they must
+   * not move or change other devices. Null: none of this driver's boards answers. Closes the connection.
+   */
+  ask(transport: Transport, clock: Clock): Promise<string | null>;
   /** Identifies the connected board. Closes the connection and rejects if it is not one of this driver's. */
   identify(transport: Transport, options: ConnectOptions): Promise<Machine>;
   /** A simulated controller, to plot without hardware. */

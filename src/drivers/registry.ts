@@ -24,8 +24,25 @@ export const controllerOf = (machine: MachineProfile): ControllerDescription => 
 /** The function that plans jobs for a machine. */
 export const plannerOf = (machine: MachineProfile): PlanForMachine => ofKind(PLANNERS, machine);
 
-/** The USB devices of all drivers. */
-export const usbIds = (): readonly UsbId[] => Object.values(CONTROLLERS).flatMap((one) => one.usbIds);
+type UsbIds = Pick<ControllerDescription, "usbIds" | "candidateIds">;
+
+/** The USB devices of a driver, and those that may be one of its boards. */
+export const usbIdsOf = ({ usbIds, candidateIds }: UsbIds): readonly UsbId[] => [...usbIds, ...candidateIds];
+
+/** The same of all drivers. */
+export const allUsbIds = (): readonly UsbId[] => Object.values(CONTROLLERS).flatMap(usbIdsOf);
+
+/** `vendorId`, `productId`: hexadecimal; undefined for a device that is not on USB. */
+export const hasUsbId = (
+  ids: readonly UsbId[],
+  vendorId: string | undefined,
+  productId: string | undefined,
+): boolean =>
+  ids.some(
+    (id) =>
+      id.vendorId === vendorId?.toLowerCase() &&
+      (id.productId === undefined || id.productId === productId?.toLowerCase()),
+  );
 
 /** @throws PlotwrightError "bad-setting" for the first field of the profile that is missing or invalid */
 export function checkMachine(machine: MachineProfile): void {

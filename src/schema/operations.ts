@@ -10,6 +10,7 @@ import {
   accessEntrySchema,
   meSchema,
   newKeySchema,
+  askedDeviceSchema,
   deviceSchema,
   newPlotterSchema,
   newWebhookSchema,
@@ -186,8 +187,14 @@ export const OPERATIONS = {
     devices: operation(
       "get",
       "/devices",
-      "Lists the boards that are plugged in",
+      "Lists the boards that are plugged in, and devices that may be one",
       z.object({ devices: z.array(deviceSchema) }),
+    ),
+    ask: operation(
+      "post",
+      "/devices/ask",
+      "Asks them what they are; some devices restart when their port is opened",
+      z.object({ devices: z.array(askedDeviceSchema) }),
     ),
     add: operation("post", "/plotters", "Adds a plotter", plotterSchema, {
       body: newPlotterSchema,

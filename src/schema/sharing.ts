@@ -2,10 +2,10 @@
 import { z } from "zod";
 import { nameSchema } from "./name.js";
 
-/** "auto": the first EiBotBoard that no other plotter uses, or else the virtual board; "virtual"; or a serial path. */
+/** "auto": the first board of the machine's controller that no other plotter uses, or else the virtual one; "virtual"; or a serial path. */
 const deviceChoiceSchema = z.string().trim().min(1).max(500);
 
-/** A board connected to the server. */
+/** A board connected to the server, or a device that may be one. */
 export const deviceSchema = z.object({
   path: z.string(),
   description: z.string(),
@@ -13,6 +13,14 @@ export const deviceSchema = z.object({
   inUseBy: z.string().nullable(),
 });
 export type Device = z.infer<typeof deviceSchema>;
+
+export const askedDeviceSchema = deviceSchema.extend({
+  /** Name and version, such as "Grbl 1.1h"; null: nothing that plotwright knows answers. */
+  answer: z.string().nullable(),
+  /** Why the port could not be opened; null if it could. */
+  fault: z.string().nullable(),
+});
+export type AskedDevice = z.infer<typeof askedDeviceSchema>;
 
 export const newPlotterSchema = z.object({
   name: nameSchema(100),

@@ -3,7 +3,7 @@
  * context, which includes http://localhost).
  */
 import { PlotwrightError, type Clock, type Transport } from "../../src/index.js";
-import { usbIds } from "../../src/internal.js";
+import { portFilters } from "./port-filters.js";
 
 /** The used part of the browser's `SerialPort`. */
 export interface WebSerialPort {
@@ -15,15 +15,10 @@ export interface WebSerialPort {
 
 /** The used part of `navigator.serial`. */
 export interface WebSerial {
-  requestPort(options: { filters: { usbVendorId: number; usbProductId: number }[] }): Promise<WebSerialPort>;
+  requestPort(options: { filters: { usbVendorId: number; usbProductId?: number }[] }): Promise<WebSerialPort>;
 }
 
-/** The boards that the browser's dialog lists: those that plotwright knows. */
-const FILTERS = usbIds().map(({ vendorId, productId }) => ({
-  usbVendorId: Number.parseInt(vendorId, 16),
-  usbProductId: Number.parseInt(productId, 16),
-}));
-/** The board is a USB device that ignores the rate, but the browser requires a valid one. */
+/** A Grbl needs this rate; an EiBotBoard is a USB device and ignores it. */
 const BAUD_RATE = 115_200;
 
 /**
@@ -39,7 +34,7 @@ export async function requestBoard(serial: WebSerial | undefined = browserSerial
   }
   let port: WebSerialPort;
   try {
-    port = await serial.requestPort({ filters: FILTERS });
+    port = await serial.requestPort({ filters: portFilters() });
   } catch (cause) {
     throw new PlotwrightError("no-board", "No board was chosen. Plug it in, and choose it in the list.", {
       cause,

@@ -1,7 +1,7 @@
 /** The EiBotBoard for `registry.ts`. */
 import type { Controller } from "../../machines/profile.js";
 import type { ControllerDescription, Driver } from "../driver.js";
-import { connectBoard } from "./machine/connection.js";
+import { askBoard, connectBoard } from "./machine/connection.js";
 import { EbbMachine } from "./machine/ebb-machine.js";
 import { EBB_FIELDS, findsHome, type EbbController } from "./protocol/ebb-controller.js";
 import { ebbFirmware } from "./protocol/firmware-motion.js";
@@ -14,12 +14,14 @@ export const description: ControllerDescription = {
   findsHome,
   // Microchip's vendor ID, with a sublicensed product ID.
   usbIds: [{ vendorId: "04d8", productId: "fd92" }],
+  candidateIds: [],
   firmware: ebbFirmware,
 };
 
 export { planEbbJob as planJob } from "./compile/ebb-job.js";
 
 export const driver: Driver = {
+  ask: askBoard,
   identify: async (transport, options) =>
     new EbbMachine(await connectBoard(transport, options), options.events),
   virtualMachine: (options) => new VirtualBoard({ ...options, servo: {} }),

@@ -12,6 +12,20 @@ export const description: ControllerDescription = {
   findsHome,
   // Many other devices have the same USB chips as these boards.
   usbIds: [],
+  candidateIds: [
+    // WCH: CH340, CH9102.
+    { vendorId: "1a86" },
+    // FTDI: FT232R, FT231X.
+    { vendorId: "0403", productId: "6001" },
+    { vendorId: "0403", productId: "6015" },
+    // Silicon Labs: CP210x.
+    { vendorId: "10c4", productId: "ea60" },
+    // Arduino, and arduino.org.
+    { vendorId: "2341" },
+    { vendorId: "2a03" },
+    // Espressif: the USB port of an ESP32-S3.
+    { vendorId: "303a" },
+  ],
   // The plan does not depend on the version.
   firmware: {
     isOwn: isOwnVersion,

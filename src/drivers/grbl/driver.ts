@@ -1,11 +1,13 @@
 /** Connects to a Grbl controller, or simulates one. `connecting.ts` imports this for the first Grbl machine. */
 import type { Driver } from "../driver.js";
+import { askGrbl } from "./machine/ask.js";
 import { GrblMachine } from "./machine/grbl-machine.js";
 import { GrblSession } from "./machine/session.js";
 import { bench } from "./virtual/bench.js";
 import { VirtualGrbl } from "./virtual/virtual-grbl.js";
 
 export const driver: Driver = {
+  ask: askGrbl,
   identify: async (transport, options) => {
     const session = new GrblSession(transport, options.clock);
     try {

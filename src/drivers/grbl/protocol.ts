@@ -9,6 +9,9 @@ export const NOW = { status: "?", hold: "!", reset: "\x18" } as const;
 /** The receive buffer of an Arduino, in characters, including line ends. */
 export const RX_BYTES = 128;
 
+/** Asks for version and buffers. Changes nothing; refused in motion. */
+export const INFO = "$I";
+
 /** Brings the carriage to its switches. The Grbl says nothing until it is there. */
 export const HOME = "$H";
 
@@ -47,6 +50,15 @@ export function versionOf(line: string): string | null {
   return plain && `Grbl ${withoutDate(plain[1])}`;
 }
 
+/** The version after one more line of the board; null: still unknown. */
+export function versionAfter(line: string, before: string | null): string | null {
+  if (line === HAL_FIRMWARE) return before?.replace(/^Grbl /, "grblHAL ") ?? null;
+  const version = versionOf(line);
+  // A child's greeting names it; its reply to `$I` may only have the number of the Grbl from which it comes.
+  const isLess = before !== null && version?.startsWith("Grbl 1.");
+  return version === null || isLess ? before : version;
+}
+
 /** Drops the date of "1.1h.20190830". */
 const withoutDate = (version: string): string => version.replace(/\.\d{6,}$/, "");
 
@@ -61,7 +73,7 @@ export function buffersOf(line: string): { queueMoves: number; rxBytes: number }
 }
 
 /** A line of the reply to `$I`, whose version is that of the Grbl from which grblHAL comes. */
-export const HAL_FIRMWARE = "[FIRMWARE:grblHAL]";
+const HAL_FIRMWARE = "[FIRMWARE:grblHAL]";
 
 export interface Status {
   /** "Idle", "Run", "Hold:0" …; "Hold" of version 0.9, which brakes or stands. */

@@ -134,6 +134,20 @@ describe("the plotters of a server", () => {
     expect(await listed()).toEqual([{ path: "/dev/ttyACM0", description: "EiBotBoard Axi1", inUseBy: null }]);
   });
 
+  it("are asked what they are", async () => {
+    expect(await (await send(app.url, "POST", "/devices/ask")).json()).toEqual({
+      devices: [
+        {
+          path: "/dev/ttyACM0",
+          description: "EiBotBoard Axi1",
+          inUseBy: null,
+          answer: "Grbl 1.1h",
+          fault: null,
+        },
+      ],
+    });
+  });
+
   it("plot side by side, each at most one job, and a queued job moves to another one", async () => {
     const { id } = await add("Upstairs");
     const [a, b, c] = [

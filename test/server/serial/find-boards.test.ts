@@ -42,6 +42,18 @@ describe("the serial ports of a Linux without udev", () => {
     ]);
   });
 
+  it("are also the serial adapters, whose ports are in a folder more", () => {
+    const device = path.join(root, "devices", "usb");
+    mkdirSync(path.join(device, "interface", "ttyUSB0"), { recursive: true });
+    writeFileSync(path.join(device, "idVendor"), "1a86\n");
+    writeFileSync(path.join(device, "idProduct"), "7523\n");
+    mkdirSync(path.join(root, "tty", "ttyUSB0"), { recursive: true });
+    symlinkSync(path.join(device, "interface", "ttyUSB0"), path.join(root, "tty", "ttyUSB0", "device"));
+    expect(sysfsPorts(path.join(root, "tty"))).toEqual([
+      { path: "/dev/ttyUSB0", vendorId: "1a86", productId: "7523" },
+    ]);
+  });
+
   it("are none if there is no such folder", () => {
     expect(sysfsPorts(path.join(root, "missing"))).toEqual([]);
   });

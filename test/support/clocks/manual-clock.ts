@@ -59,6 +59,8 @@ export class ManualClock implements Clock {
     const untilS = this.timeS + limitS;
     await settle();
     while (!done) {
+      if (this.timers.length === 0) await loaded(() => done || this.timers.length > 0);
+      if (done) break;
       const next = this.timers[0];
       if (!next) throw new Error("the work is not done, and no timer is pending");
       if (next.dueS > untilS) throw new Error(`the work is not done after ${limitS} s`);
@@ -72,6 +74,11 @@ export class ManualClock implements Clock {
     while (at > 0 && this.timers[at - 1].dueS > timer.dueS) at--;
     this.timers.splice(at, 0, timer);
   }
+}
+
+/** Work may load code, which takes real time. */
+async function loaded(isLoaded: () => boolean): Promise<void> {
+  for (let i = 0; i < 250 && !isLoaded(); i++) await new Promise((resolve) => setTimeout(resolve, 20));
 }
 
 /** Lets every promise that can settle do so, also at the end of a long chain of them. */

@@ -90,6 +90,12 @@ export async function startApp(
     announce,
     firstId: plotter.id,
     findBoards: () => Promise.resolve(options.boards ?? []),
+    askPorts: (isTaken) =>
+      Promise.resolve(
+        (options.boards ?? [])
+          .filter(({ path }) => !isTaken(path))
+          .map((board) => ({ ...board, answer: "Grbl 1.1h", fault: null })),
+      ),
     withMachine: (settings) => settings,
     open: (row) => {
       if (row.id === plotter.id) return plotter;

@@ -84,7 +84,7 @@ describe("a board on Web Serial", () => {
     expect(await closed).toBeUndefined();
   });
 
-  it("asks for an EiBotBoard by its USB ids", async () => {
+  it("asks for an EiBotBoard by its USB ids, and for the USB chips of Grbl boards", async () => {
     let asked: unknown;
     const serial: WebSerial = {
       requestPort: (options) => {
@@ -93,7 +93,18 @@ describe("a board on Web Serial", () => {
       },
     };
     await (await requestBoard(serial)).close();
-    expect(asked).toEqual({ filters: [{ usbVendorId: 0x04d8, usbProductId: 0xfd92 }] });
+    expect(asked).toEqual({
+      filters: [
+        { usbVendorId: 0x04d8, usbProductId: 0xfd92 },
+        { usbVendorId: 0x1a86 },
+        { usbVendorId: 0x0403, usbProductId: 0x6001 },
+        { usbVendorId: 0x0403, usbProductId: 0x6015 },
+        { usbVendorId: 0x10c4, usbProductId: 0xea60 },
+        { usbVendorId: 0x2341 },
+        { usbVendorId: 0x2a03 },
+        { usbVendorId: 0x303a },
+      ],
+    });
   });
 
   it("explains what to do if nothing was chosen, the port is taken, or the browser has no support", async () => {

@@ -56,10 +56,7 @@ export const createBrowserBackend = (sampleFiles: SampleFiles): Backend => {
 const askForPort = async (client: HostClient): Promise<void> => {
   const reason = whyNoPort();
   if (reason !== null) throw new BackendFault("not-allowed", reason);
-  const filters = (await client.callOwn("usbIds")).map(({ vendorId, productId }) => ({
-    usbVendorId: Number.parseInt(vendorId, 16),
-    usbProductId: Number.parseInt(productId, 16),
-  }));
+  const filters = await client.callOwn("portFilters");
   try {
     await (navigator as { serial: Serial }).serial.requestPort({ filters });
   } catch {

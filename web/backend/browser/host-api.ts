@@ -1,11 +1,11 @@
 /** What pages can ask of the host: operations of the table, and what only this host has. */
 import { PlotwrightError } from "../../../src/index.js";
-import { usbIds } from "../../../src/internal.js";
 import type { OperationHandlers, Plotter } from "../../../src/schema/index.js";
 import { hostOperations, type HostParts } from "../../../host/operations/host-operations.js";
 import type { Requester } from "../../../host/planning/lane.js";
 import { findPlotter } from "../../../host/queue/find-plotter.js";
 import type { DrawingText } from "../drawing-text.js";
+import { portFilters } from "../../serial/port-filters.js";
 import { browserText } from "./text.js";
 
 interface BrowserParts extends Omit<HostParts, "storeText" | "jobBoxMm" | "log"> {
@@ -58,7 +58,7 @@ export const ownMethods = ({ queue, registry }: Pick<BrowserParts, "queue" | "re
     return plotter.snapshot();
   },
   /** For the browser's dialog of ports. The host has them, so that the page does not load the drivers. */
-  usbIds: () => usbIds(),
+  portFilters: () => portFilters(),
   /** After this the host's worker stops being the host, and the calling page's worker becomes the host. */
   handOver: (): void => {
     if (queue.list().some(({ state }) => state === "plotting" || state === "paused")) {

@@ -12,6 +12,7 @@ import { version } from "../../../package.json";
 import { CustomMachines } from "../../../host/custom-machines.js";
 import { FIRST_PLOTTER, openNamedPlotter } from "../../../host/plotter/named-plotter.js";
 import type { Requester } from "../../../host/planning/lane.js";
+import { askPorts } from "../../../host/plotter/ask-ports.js";
 import { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
 import type { LiveJob } from "../../../host/queue/live-jobs.js";
@@ -88,6 +89,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
     store,
     announce,
     findBoards: devices.findAll,
+    askPorts: (isTaken) => askPorts({ devices, clock }, isTaken),
     withMachine,
     firstId: FIRST_PLOTTER,
     open: (row, isTaken, settings) =>

@@ -2,8 +2,8 @@
  * The serial ports that the user has allowed this page to use. A worker can open them, but only a page can ask for more.
  */
 import { PlotwrightError } from "../../../src/index.js";
-import { usbIds, type UsbId } from "../../../src/internal.js";
-import type { Devices, FoundBoard } from "../../../host/plotter/connected-machine.js";
+import { allUsbIds, hasUsbId, type UsbId } from "../../../src/internal.js";
+import type { Devices, FoundBoard } from "../../../host/plotter/devices.js";
 import { openWebSerial } from "../../serial/web-serial.js";
 
 const hex = (id: number | undefined): string | undefined => id?.toString(16).padStart(4, "0");
@@ -21,19 +21,17 @@ export function serialDevices(
   const find = async (ids: readonly UsbId[]): Promise<FoundBoard[]> => {
     const boards = (await ports()).filter((port) => {
       const { usbVendorId, usbProductId } = port.getInfo();
-      return ids.some(
-        ({ vendorId, productId }) => vendorId === hex(usbVendorId) && productId === hex(usbProductId),
-      );
+      return hasUsbId(ids, hex(usbVendorId), hex(usbProductId));
     });
     return boards.map((port) => ({
       path: names.get(port) ?? "",
-      description: "EiBotBoard",
+      description: "USB device",
       serialNumber: null,
     }));
   };
   return {
     find,
-    findAll: () => find(usbIds()),
+    findAll: () => find(allUsbIds()),
     open: async (path) => {
       const port = (await ports()).find((candidate) => names.get(candidate) === path);
       if (port === undefined) {

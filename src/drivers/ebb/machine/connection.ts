@@ -39,6 +39,18 @@ export async function connectBoard(
   }
 }
 
+/** See `Driver.ask`. */
+export async function askBoard(transport: Transport, clock: Clock): Promise<string | null> {
+  const session = new BoardSession(transport, { clock });
+  try {
+    return `EiBotBoard ${(await session.identify()).firmware}`;
+  } catch {
+    return null;
+  } finally {
+    await session.close();
+  }
+}
+
 function ignoreRefusal(error: unknown): void {
   if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
 }

@@ -18,8 +18,8 @@ import {
   alarm,
   buffersOf,
   CHECK,
-  HAL_FIRMWARE,
   HOME,
+  INFO,
   isGreeting,
   isHeld,
   isLocked,
@@ -36,7 +36,7 @@ import {
   RX_BYTES,
   statusOf,
   unanswered,
-  versionOf,
+  versionAfter,
   type Status,
 } from "../protocol.js";
 import { BoardSettings } from "./board-settings.js";
@@ -152,9 +152,9 @@ export class GrblSession implements LineProtocol {
     }
     // "$" asks for help. It spoils a line that was left unfinished, such as G1X1 of G1X100, so that it is refused. "$I" is
     // refused in motion.
-    const lines = ["$", "", CHECK, SYNC, "$I"];
+    const lines = ["$", "", CHECK, SYNC, INFO];
     await this.untilQuiet(Promise.allSettled(lines.map((line) => this.send(line))), isAgain);
-    this.sent.settleAll(silent("$I"));
+    this.sent.settleAll(silent(INFO));
     return this.version;
   }
 
@@ -330,9 +330,8 @@ export class GrblSession implements LineProtocol {
     this.reportedOffset = offsetOf(line) ?? this.reportedOffset;
     const status = statusOf(line, this.offset, this.settings.mmPerUnit);
     if (status) return this.reported(status);
-    this.takeVersion(versionOf(line));
+    this.takeVersion(versionAfter(line, this.version));
     this.buffers = buffersOf(line) ?? this.buffers;
-    if (line === HAL_FIRMWARE) this.version = this.version?.replace(/^Grbl /, "grblHAL ") ?? null;
     this.settings.take(line);
     // Version 0.9 writes words instead of a number.
     const alarmed = /^ALARM: ?(\d*)/.exec(line);
@@ -355,9 +354,8 @@ export class GrblSession implements LineProtocol {
     }
   }
 
-  /** A child's greeting names it; its reply to `$I` may only have the number of the Grbl from which it comes. */
   private takeVersion(version: string | null): void {
-    if (version === null || (this.version !== null && version.startsWith("Grbl 1."))) return;
+    if (version === null || version === this.version) return;
     this.version = version;
     if (isOldVersion(version)) this.buffers = { queueMoves: OLD_QUEUE_MOVES, rxBytes: RX_BYTES };
   }

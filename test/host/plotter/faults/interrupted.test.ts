@@ -4,7 +4,7 @@
  */
 import { describe, expect, it } from "vitest";
 import type { JournalEntry } from "../../../../host/plotter/plotter-port.js";
-import type { Devices } from "../../../../host/plotter/connected-machine.js";
+import type { Devices } from "../../../../host/plotter/devices.js";
 import { PlotterConnection as HostDriver } from "../../../../host/plotter/plotter-connection.js";
 import { VirtualBoard, type PlotwrightError, type StrokeSet, type Transport } from "../../../../src/index.js";
 import { firmwareFeatures } from "../../../../src/drivers/ebb/protocol/firmware.js";
