@@ -73,15 +73,13 @@ const SheetTile = ({ job, onRemoved }: TileProps) => {
   return (
     <article className="sheet-tile" data-state={job.state}>
       <Picture job={job} />
+      <JobName job={job} />
       <div className="sheet-head">
-        <JobName job={job} />
+        <StateBadge job={job} />
         <TileButtons job={job} {...(onRemoved && { onRemoved })} />
       </div>
-      <p className="sheet-line">
-        <StateBadge job={job} />
-        <span>{job.endedAt !== null && formatWhen(job.endedAt)}</span>
-      </p>
       <p className="note">
+        {job.endedAt !== null && `${formatWhen(job.endedAt)} · `}
         {job.state === "done" && stats && `${words.ink(formatLength(stats.drawMm))} · `}
         {timesOf(job)}
       </p>

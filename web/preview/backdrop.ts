@@ -155,10 +155,11 @@ const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, co
   context.strokeRect(...sidesOf(box));
   context.setLineDash([]);
   context.globalAlpha = isShort ? 1 : 0.8;
-  if (!isShort && box.x1 - box.x0 < MIN_LABEL_PX) return context.restore();
+  const paper = screenBox(view, boxOfSize(paperMm));
+  // On a small picture of the sheet the words would hide more than they say.
+  if (Math.min(box.x1, paper.x1) - Math.max(box.x0, paper.x0) < MIN_LABEL_PX) return context.restore();
   context.font = DESK_FONT;
   // Below the lower edge, and not beyond the paper's sides, so that it is visible; the lower right corner may be home.
-  const paper = screenBox(view, boxOfSize(paperMm));
   const isLeft = view.turn === 2;
   context.textAlign = isLeft ? "left" : "right";
   const x = isLeft ? Math.max(box.x0, paper.x0) : Math.min(box.x1, paper.x1);

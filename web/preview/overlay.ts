@@ -116,13 +116,13 @@ type GlowPass = readonly [color: string, widthPx: number];
 
 const TILE_COLOR = "#2f62d8";
 
-/** The edges of the sheets over which a drawing is spread, with their numbers. Their overlaps are shaded. */
+/** The edges of the sheets over which a drawing is spread, with their numbers on top. Their overlaps are shaded. */
 export const paintTiles = (context: CanvasRenderingContext2D, view: View, windows: readonly Box[]): void => {
   context.save();
   context.strokeStyle = context.fillStyle = TILE_COLOR;
   context.font = `600 ${DESK_FONT}`;
   context.setLineDash([6, 4]);
-  windows.forEach((window, k) => {
+  for (const window of windows) {
     const { x0: x, y0: y, x1, y1 } = screenBox(view, window);
     const [width, height] = [x1 - x, y1 - y];
     context.strokeRect(x, y, width, height);
@@ -130,9 +130,27 @@ export const paintTiles = (context: CanvasRenderingContext2D, view: View, window
     context.globalAlpha = 0.06;
     context.fillRect(x, y, width, height);
     context.globalAlpha = 1;
-    context.fillText(String(k + 1), x + 8, y + 18);
+  }
+  context.setLineDash([]);
+  windows.forEach((window, k) => {
+    const { x0, y0 } = screenBox(view, window);
+    paintTileNumber(context, x0, y0, String(k + 1));
   });
   context.restore();
+};
+
+const NUMBER_PX = 20;
+
+/** On a plate, which keeps it readable on dense ink. */
+const paintTileNumber = (context: CanvasRenderingContext2D, x: number, y: number, number: string): void => {
+  const width = Math.max(NUMBER_PX, context.measureText(number).width + 10);
+  context.fillStyle = TILE_COLOR;
+  context.beginPath();
+  context.roundRect(x + 5, y + 5, width, NUMBER_PX, 5);
+  context.fill();
+  context.fillStyle = "#fff";
+  context.textAlign = "center";
+  context.fillText(number, x + 5 + width / 2, y + 19);
 };
 
 export const paintCutOff = (context: CanvasRenderingContext2D, view: View, cutOff: CutOffPicture): void =>

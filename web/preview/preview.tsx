@@ -21,8 +21,8 @@ import { TimeLine } from "./time-line.js";
 import { penLooks, viewModeOf } from "./view-modes.js";
 import { mmFromPx, mmFromScreen, type View } from "../scene/view.js";
 
-/** Height of the legend under the paper. */
-const BELOW_PX = 30;
+/** The drawing's name above the paper, the legend under it. */
+const KEPT_FREE = { abovePx: 26, belowPx: 30 };
 
 /** The paper with the drawing on it, as it will be plotted. */
 export const Preview = () => (
@@ -162,7 +162,7 @@ const penOf = (state: PageState, glide: PenGlide): ShownPen | null => {
 const PREPARED: SheetKind = {
   desk: deskOfState,
   look: lookOf,
-  belowPx: BELOW_PX,
+  keptFree: KEPT_FREE,
   show: showState,
   hand: (stage, store, actions) => ({
     grab: (at, isFinger) => (handOf(store)?.grabPiece ?? grabFrame)(stage, store, actions, at, isFinger),

@@ -4,7 +4,7 @@ import { useActions, usePageState, usePageStore } from "../state/use-store.js";
 import type { Actions } from "../state/actions.js";
 import type { Desk } from "./backdrop.js";
 import { listenForGestures, type GestureTarget } from "./gestures.js";
-import { Stage, type FrameLook } from "./stage.js";
+import { Stage, type FrameLook, type KeptFree } from "./stage.js";
 import { TURN_DESK } from "./preview-actions.js";
 import { previewText } from "./text.js";
 import { ActionButton } from "../ui/action-button.js";
@@ -13,8 +13,7 @@ import { ActionButton } from "../ui/action-button.js";
 export interface SheetKind {
   desk(state: PageState): Desk;
   look(state: PageState): FrameLook;
-  /** Free space under the paper for the controls there, px. */
-  readonly belowPx: number;
+  readonly keptFree: KeptFree;
   /** Shows each change of the state, until the returned function is called. */
   show(stage: Stage, store: PageStore): () => void;
   hand(stage: Stage, store: PageStore, actions: Actions): Omit<GestureTarget, "view" | "setView" | "fit">;
@@ -63,7 +62,7 @@ export const Sheet = ({ kind, label, pictureLabel, children, foot }: SheetProps)
     };
     const state = store.getState();
     const onFault = (): void => setHasFault(true);
-    const made = new Stage(canvases, kind.desk(state), kind.look(state), kind.belowPx, onFault);
+    const made = new Stage(canvases, kind.desk(state), kind.look(state), kind.keptFree, onFault);
     const stopShowing = kind.show(made, store);
     const stopGestures = listenForGestures(box.current, {
       view: () => made.view,

@@ -31,6 +31,12 @@ interface StageCanvases {
   readonly overlay: HTMLCanvasElement;
 }
 
+/** What is kept free above the paper for the words there, and below it for the controls, px. */
+export interface KeptFree {
+  readonly abovePx: number;
+  readonly belowPx: number;
+}
+
 /** Paints over the strokes. */
 export type OverlayPainter = (context: CanvasRenderingContext2D, view: View) => void;
 
@@ -45,7 +51,9 @@ export interface ShownPen {
 
 export type FrameLook = Omit<Frame, "view" | "width" | "height" | "ratio" | "ghostColor">;
 
+/** Desk around the paper; less on a low screen, as a share of its height. */
 const INSET_PX = 26;
+const INSET_SHARE = 0.06;
 /** On a low screen, what lies under the paper may lie over it: the share of the height that is kept free for it. */
 const MOST_BELOW = 0.24;
 const MAX_RATIO = 2;
@@ -83,7 +91,7 @@ export class Stage {
     private readonly canvases: StageCanvases,
     desk: Desk,
     private look: FrameLook,
-    private readonly belowPx: number,
+    private readonly keptFree: KeptFree,
     onFault: () => void,
   ) {
     this.shownDesk = desk;
@@ -192,11 +200,14 @@ export class Stage {
   }
 
   private fitNow(): void {
+    const { abovePx, belowPx } = this.keptFree;
+    const { height } = this.cssSize;
+    const insetPx = Math.min(INSET_PX, INSET_SHARE * height);
     const insets = {
-      top: RULER_PX + INSET_PX + roomForHomePx(this.shownDesk.turn),
-      left: RULER_PX + INSET_PX,
-      right: INSET_PX,
-      bottom: INSET_PX + Math.min(this.belowPx, MOST_BELOW * this.cssSize.height),
+      top: RULER_PX + Math.max(insetPx, abovePx) + roomForHomePx(this.shownDesk.turn),
+      left: RULER_PX + insetPx,
+      right: insetPx,
+      bottom: insetPx + Math.min(belowPx, MOST_BELOW * height),
     };
     this.currentView = fitView(this.shownDesk.paperMm, this.cssSize, insets, this.shownDesk.turn);
   }

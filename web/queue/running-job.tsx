@@ -9,12 +9,14 @@ import { HoldCard } from "./hold-card.js";
 import { JobButtons } from "./job-buttons.js";
 import { JobName, Progress, StateBadge, stateOf } from "./job-head.js";
 import { stopsLeft } from "./queue-time.js";
-import { PenWait } from "./pen-wait.js";
 
-/** The job that has the plotter, first in the queue. In Watch its buttons are on the status card. */
+/**
+ * The job that has the plotter, first in the queue. In Watch its buttons are on the status card, and while it waits for a
+ * pen they are over the paper.
+ */
 export const RunningJob = ({ job }: { job: Job }) => {
   const isWatched = usePageState((state) => shownView(state) === "watch");
-  const wait = penWait(job);
+  const hasButtons = !isWatched && penWait(job) === null;
   return (
     <article className="job job-active" data-state={stateOf(job)}>
       <div className="job-row">
@@ -26,7 +28,7 @@ export const RunningJob = ({ job }: { job: Job }) => {
       <Progress job={job} />
       <TimeLeft job={job} />
       {!isWatched && <HoldCard job={job} />}
-      {!isWatched && (wait ? <PenWait job={job} wait={wait} /> : <JobButtons job={job} />)}
+      {hasButtons && <JobButtons job={job} />}
     </article>
   );
 };

@@ -79,14 +79,15 @@ export const buildScene = (
 /** A dot is a draw run without blocks: the pen goes down and up on the spot. */
 const isDot = ({ runs }: Trajectory, r: number): boolean => runs.firstBlock[r] === runs.firstBlock[r + 1];
 
-/** The number of pieces that begin before `tS`. */
+/** The number of pieces that begin before `tS`, to the precision with which pieces have their times. */
 export const piecesBefore = (pieces: Pieces, tS: number): number => {
   const floats = new Float32Array(pieces.bytes);
+  const untilS = Math.fround(tS);
   let low = 0;
   let high = pieces.count;
   while (low < high) {
     const mid = (low + high) >> 1;
-    if (floats[mid * PIECE_FLOATS + 4] < tS) low = mid + 1;
+    if (floats[mid * PIECE_FLOATS + 4] < untilS) low = mid + 1;
     else high = mid;
   }
   return low;

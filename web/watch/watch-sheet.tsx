@@ -21,7 +21,7 @@ export const WatchSheet = () => (
     pictureLabel={words.canvas}
     foot={(stage) => (
       <div className="preview-tools">
-        <ZoomTools stage={stage} />
+        <ZoomTools stage={stage} className="tool-zoom" />
         <FullScreenButton />
       </div>
     )}
@@ -98,7 +98,7 @@ const placePainter =
 const WATCHED: SheetKind = {
   desk: watchedDesk,
   look: lookOf,
-  belowPx: 0,
+  keptFree: { abovePx: 0, belowPx: 0 },
   show: showState,
   hand: () => ({ grab: () => null, nudge: () => false, hover: () => undefined, tap: () => undefined }),
 };

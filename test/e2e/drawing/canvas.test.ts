@@ -69,6 +69,21 @@ describe("the looks", () => {
   });
 });
 
+describe("the pen", () => {
+  it("is whole where the plot begins, at the sheet's corner: it lies over the ruler", async () => {
+    const { page } = test;
+    await page.getByRole("slider", { name: "Moment of the plot" }).fill("0");
+    await nextFrames(page);
+    const overRuler = await page.locator(".pen-canvas:visible").evaluate((element) => {
+      const canvas = element as HTMLCanvasElement;
+      const pixels = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, 22).data;
+      return pixels.filter((value, k) => k % 4 === 3 && value > 0).length;
+    });
+    expect(overRuler).toBeGreaterThan(50);
+    await page.getByRole("slider", { name: "Moment of the plot" }).fill("10000");
+  });
+});
+
 describe("the looks on a phone", () => {
   it("are a list with room for their whole names, and legends", async () => {
     const { page } = test;

@@ -1,6 +1,6 @@
 /** Several drawings on one sheet: added, selected, moved, copied, aligned, kept, and plotted as one job. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { dropFile, openView } from "../../support/browser/page-actions.js";
+import { colorCounts, dropFile, openView } from "../../support/browser/page-actions.js";
 import { PageTest } from "../../support/browser/page-test.js";
 
 /** A line to the right and down, so that size, mirroring and turning are seen in its ends. */
@@ -243,6 +243,10 @@ describe("a drawing over several sheets", () => {
     await type("Overlap of the sheets", 20);
     // Of A4 inside margins of 15 mm: 2 × 267 − 20 mm and 2 × 180 − 20 mm.
     await test.page.getByText("4 sheets, together 514 × 340\u202fmm.").waitFor();
+    // Their numbers have plates of 20 × 20 px, so that they are read on dense ink too.
+    await test.drawn();
+    const counts = await colorCounts(test.page.getByRole("img", { name: "Preview", exact: true }));
+    expect(counts.get(0x2f62d8) ?? 0).toBeGreaterThan(800);
     const known = new Set((await test.jobs()).map(({ id }) => id));
     await button("Add to queue").click();
     const fresh = async () => (await test.jobs()).filter(({ id }) => !known.has(id));

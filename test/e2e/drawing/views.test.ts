@@ -39,6 +39,21 @@ describe("Time", () => {
       .waitFor();
   });
 
+  it("has its words below the sheet, on a desk and on a phone with a panel open", async () => {
+    const { page } = test;
+    for (const size of [
+      { width: 1440, height: 900 },
+      { width: 390, height: 844 },
+    ]) {
+      await page.setViewportSize(size);
+      await test.panel("Paper");
+      const paper = await test.onScreen("paper");
+      expect((await legend().boundingBox())!.y).toBeGreaterThanOrEqual(paper.bottom);
+    }
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await page.getByRole("button", { name: "Close the panel" }).click();
+  });
+
   it("makes a change with one click, which saves what it said, and takes it back with another", async () => {
     const beforeS = await seconds();
     const change = legend().getByRole("listitem").filter({ hasText: "Joining gaps" });

@@ -91,6 +91,16 @@ describe("the library's dialog", () => {
     LIMIT_MS,
   );
 
+  it("has its fields within its edges on a phone", async () => {
+    await page.setViewportSize({ width: 390, height: 844 });
+    const endOf = async (name: string): Promise<number> => {
+      const { x, width } = (await button(name).boundingBox())!;
+      return x + width;
+    };
+    expect(await endOf("Make")).toBeLessThanOrEqual((await endOf("Save “ruled” here")) + 0.5);
+    await page.setViewportSize({ width: 1440, height: 900 });
+  });
+
   it(
     "takes a file of another format, and shows a picture of it",
     async () => {

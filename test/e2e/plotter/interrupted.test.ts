@@ -18,6 +18,7 @@ import { startServerProcess, type ServerProcess } from "../../support/processes/
 
 const PATIENCE_MS = 120_000;
 const NAME = "comb";
+const LOST = "The plotter does not know where its carriage is";
 const COMB = combOf("near", "far");
 
 const data = temporaryFolder("interrupted");
@@ -73,6 +74,21 @@ describe("a plot whose server was killed", () => {
     await expectAt("Interrupted");
   });
 
+  it("leaves the sheet room on a phone with a panel open: the card has its title and what is to be ticked", async () => {
+    await page.setViewportSize({ width: 390, height: 844 });
+    await openPanel(page, "Queue");
+    const canvas = (await page.locator(".canvas:visible").boundingBox())!;
+    expect(canvas.height / 844).toBeGreaterThan(0.2);
+    const card = statusCard(page).getByRole("group", { name: LOST });
+    expect(await card.getByRole("checkbox").isVisible()).toBe(true);
+    const words = card.getByText("Push the carriage into its corner by hand", { exact: false });
+    expect(await words.isVisible()).toBe(false);
+    await page.getByRole("button", { name: "Close the panel" }).click();
+    await words.waitFor();
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await openPanel(page, "Queue");
+  });
+
   it("is shown there when it is resumed and held, after a reload too", async () => {
     const { id } = await theJob();
     await fetch(`${server.url}/api/v1/jobs/${id}/recover`, { method: "POST" });
@@ -83,9 +99,7 @@ describe("a plot whose server was killed", () => {
   });
 
   it("moves only after the user has said that the carriage is in its corner", async () => {
-    const card = statusCard(page).getByRole("group", {
-      name: "The plotter does not know where its carriage is",
-    });
+    const card = statusCard(page).getByRole("group", { name: LOST });
     await card.getByText(/lost its position: push the carriage to home/).waitFor();
     const resume = statusCard(page).getByRole("button", { name: "Resume" });
     expect(await resume.isDisabled()).toBe(true);

@@ -254,6 +254,11 @@ describe("machines as files", () => {
     expect(await chooser.inputValue()).toBe("");
     await chooser.setInputFiles(file(profile));
     await sheet.getByLabel("Steps per mm").fill("120");
+    // In sight on a phone too, where the form is longer than the screen.
+    await page.setViewportSize({ width: 390, height: 844 });
+    const [inForm, save] = [await sheet.boundingBox(), await button("Save and use", sheet).boundingBox()];
+    expect(save!.y + save!.height).toBeLessThanOrEqual(inForm!.y + inForm!.height);
+    await page.setViewportSize({ width: 900, height: 600 });
     await button("Save and use", sheet).click();
     await button("Edit A1 clone", sheet).waitFor();
     const download = page.waitForEvent("download");

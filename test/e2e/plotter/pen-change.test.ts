@@ -6,7 +6,7 @@ import { historyPanel, openView, plotBar, statusCard } from "../../support/brows
 import { PageTest } from "../../support/browser/page-test.js";
 
 const LIMIT_MS = 120_000;
-const NAME = "two pens";
+const NAME = "two pens for a card, 28 November";
 const WAITS = "Waits for the pen for “Red”";
 
 let test: PageTest;
@@ -50,11 +50,50 @@ describe("a plot that waits for a pen", () => {
   });
 });
 
+describe("the pen that a plot waits for", () => {
+  const PHONE = { width: 390, height: 844 };
+  const DESK = { width: 1440, height: 900 };
+
+  it("is asked for in one place in Prepare, at any size", async () => {
+    const { page } = test;
+    await openView(page, "Prepare");
+    await test.panel("Queue");
+    for (const size of [PHONE, DESK]) {
+      await page.setViewportSize(size);
+      for (const name of ["Continue", "Cancel", "Pen down"]) {
+        const shown = page.getByRole("button", { name, exact: true }).filter({ visible: true });
+        expect(`${name}: ${await shown.count()}`).toBe(`${name}: 1`);
+      }
+    }
+    await openView(page, "Watch");
+  });
+
+  it("leaves the sheet of Watch as much of the window as any plot", async () => {
+    const { page } = test;
+    const share = async ({ width, height }: typeof DESK): Promise<number> => {
+      await page.setViewportSize({ width, height });
+      const canvas = (await page.locator(".canvas:visible").boundingBox())!;
+      return (canvas.width * canvas.height) / (width * height);
+    };
+    // With the panel of the queue open.
+    expect(await share(PHONE)).toBeGreaterThan(0.22);
+    expect(await share(DESK)).toBeGreaterThan(0.55);
+  });
+});
+
 describe("a plot that was cancelled half way", () => {
   it("is shown at its position as soon as it is recovered, and waits for the pen again", async () => {
     const { id } = await theJob();
     await test.page.request.post(`${test.server.url}/api/v1/jobs/${id}/cancel`);
     await expect.poll(async () => (await theJob()).state).toBe("cancelled");
+    // Its name is shown whole.
+    const name = history().getByRole("article").locator(".job-name");
+    await name.waitFor();
+    const [wide, high] = await name.evaluate((element) => [
+      element.scrollWidth - element.clientWidth,
+      element.scrollHeight - element.clientHeight,
+    ]);
+    expect(Math.max(wide, high)).toBeLessThanOrEqual(1);
     await history()
       .getByRole("button", { name: `Go on from where it was cancelled: ${NAME}` })
       .click();

@@ -154,6 +154,18 @@ describe("the scene", () => {
     expect(pieceAt(scene.draw, half).t0).toBeGreaterThanOrEqual(scene.totalS / 2);
   });
 
+  it("has nothing drawn of the stroke that begins at that time, at any time of a long plot", () => {
+    const rows = Array.from({ length: 40 }, (_, i) => [10, 10 + i, 210.3, 10 + i]);
+    const long = plan(strokeSet(...rows), DEFAULT_MOTION, DEFAULT_PEN);
+    const { draw } = buildScene(long, new Uint16Array(rows.length));
+    const { runs } = long;
+    for (let r = 0; r < runs.count; r++) {
+      if (runs.stroke[r] < 0) continue;
+      const startS = long.startS[runs.firstBlock[r]];
+      expect(pieceAt(draw, piecesBefore(draw, startS)).t0).toBe(Math.fround(startS));
+    }
+  });
+
   it("is empty for a drawing without strokes", () => {
     const empty = strokeSet();
     const nothing = buildScene(plan(empty, DEFAULT_MOTION, DEFAULT_PEN), empty.layer);

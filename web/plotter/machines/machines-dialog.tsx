@@ -126,7 +126,7 @@ const Editor = ({ first, onDone }: { first: MachineProfile; onDone(): void }) =>
           ))}
         </ul>
       )}
-      <div className="button-row">
+      <div className="button-row dialog-foot">
         <Button kind="primary" disabled={problems.length > 0} onClick={() => void save()}>
           {words.saveMachine}
         </Button>

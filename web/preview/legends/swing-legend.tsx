@@ -39,7 +39,7 @@ export const SwingLegend = ({ planned }: { planned: Planned }) => {
   );
   const swing = usePageState((state) => state.swing);
   return (
-    <figure className="legend swing-legend" aria-label={words.legend}>
+    <figure className="legend legend-rows swing-legend" aria-label={words.legend}>
       {swing?.result ? <Scale result={swing.result} /> : <Progress swing={swing} />}
       {swing && <Springs swing={swing} />}
     </figure>

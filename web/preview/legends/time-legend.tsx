@@ -86,14 +86,15 @@ export const TimeLegend = ({ planned }: { planned: Planned }) => {
   const { totalS } = planned.trajectory;
   const leastMs = 1_000 / planned.scene.topDrawMmPerS;
   return (
-    <figure className="legend time-legend" aria-label={words.legend}>
+    <figure className="legend legend-rows time-legend" aria-label={words.legend}>
       <div className="time-shares">
         <div className="time-bar" aria-hidden="true">
           {parts.map(({ kind, s }) => (
             <span key={kind} data-kind={kind} style={{ flexGrow: s }} />
           ))}
         </div>
-        <ul>
+        {/* On a phone it is one line, which scrolls. */}
+        <ul tabIndex={0}>
           {parts.map(({ kind, s }) => (
             <li key={kind} data-kind={kind}>
               {words.share(formatNumber((100 * s) / totalS, 0), words.parts[kind], formatDuration(s))}

@@ -58,15 +58,18 @@ export class PenLayer {
     context.rect(RULER_PX, RULER_PX, size.width, size.height);
     context.clip();
     if (ink) this.paintInk(context, ink);
+    context.restore();
     const { place, color } = pen;
     const wanted = place.penDown ? 0 : 1;
     const step = Math.max(0, nowMs - this.lastMs) / LIFT_MS;
     this.lift += Math.max(-step, Math.min(step, wanted - this.lift));
     this.lastMs = nowMs;
     const [x, y] = screenPoint(view, place.xMm, place.yMm);
-    this.reach(x, y, PEN_REACH_PX);
-    paintPen(context, x, y, color, this.lift);
-    context.restore();
+    // It lies over the rulers as a pen would, while its point is beside them.
+    if (x >= RULER_PX && y >= RULER_PX) {
+      this.reach(x, y, PEN_REACH_PX);
+      paintPen(context, x, y, color, this.lift);
+    }
     this.canvas.dataset["mm"] = `${place.xMm.toFixed(3)} ${place.yMm.toFixed(3)}`;
     return this.lift !== wanted;
   }

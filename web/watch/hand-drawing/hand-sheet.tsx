@@ -23,7 +23,7 @@ export const HandSheet = ({ kind, foot, children }: HandSheetProps) => (
       <>
         {foot}
         <div className="preview-tools">
-          <ZoomTools stage={stage} />
+          <ZoomTools stage={stage} className="tool-zoom" />
           <FullScreenButton />
         </div>
       </>
@@ -58,7 +58,7 @@ const NO_LOOK: FrameLook = {
 export const sheetOf = (drawing: HandDrawing): SheetKind => ({
   desk: deskOfState,
   look: () => NO_LOOK,
-  belowPx: 0,
+  keptFree: { abovePx: 0, belowPx: 0 },
   show: (stage, store) => show(stage, store, drawing),
   hand: (stage) => {
     const pointer = new PenPointer({
