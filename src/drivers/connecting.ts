@@ -4,7 +4,7 @@
  */
 import type { MachineProfile } from "../machines/profile.js";
 import type { Driver, UsbId } from "./driver.js";
-import { driver as ebb } from "./ebb/controller.js";
+import { driver as ebb } from "./ebb/driver.js";
 import { CONTROLLERS, ofKind, usbIdsOf, type ByKind } from "./registry.js";
 
 const DRIVERS: ByKind<() => Promise<Driver>> = {

@@ -1,12 +1,8 @@
 /** The EiBotBoard for `registry.ts`. */
 import type { Controller } from "../../machines/profile.js";
-import type { ControllerDescription, Driver } from "../driver.js";
-import { askBoard, connectBoard } from "./machine/connection.js";
-import { EbbMachine } from "./machine/ebb-machine.js";
+import type { ControllerDescription } from "../driver.js";
 import { EBB_FIELDS, findsHome, type EbbController } from "./protocol/ebb-controller.js";
 import { ebbFirmware } from "./protocol/firmware-motion.js";
-import { bench } from "./virtual/bench.js";
-import { VirtualBoard } from "./virtual/virtual-board.js";
 
 export const description: ControllerDescription = {
   fields: EBB_FIELDS,
@@ -19,14 +15,6 @@ export const description: ControllerDescription = {
 };
 
 export { planEbbJob as planJob } from "./compile/ebb-job.js";
-
-export const driver: Driver = {
-  ask: askBoard,
-  identify: async (transport, options) =>
-    new EbbMachine(await connectBoard(transport, options), options.events),
-  virtualMachine: (options) => new VirtualBoard({ ...options, servo: {} }),
-  bench,
-};
 
 function contradictionIn(controller: Controller): { field: string; message: string } | null {
   const { servoPosAt0Pct, servoPosAt100Pct, homing, cornerSwitch } = controller as EbbController;

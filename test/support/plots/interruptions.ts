@@ -6,7 +6,7 @@ import { resumePosition } from "../../../host/plotter/resume-position.js";
 import { MachinePlot } from "../../../host/plotter/machine-plot.js";
 import type { JournalEntry } from "../../../host/plotter/plotter-port.js";
 import { streamOf } from "../../../src/drivers/ebb/compile/command-stream.js";
-import { driver as ebbDriver } from "../../../src/drivers/ebb/controller.js";
+import { driver as ebbDriver } from "../../../src/drivers/ebb/driver.js";
 import {
   commandLine,
   VirtualBoard,

@@ -1,7 +1,7 @@
 /** A plot on a virtual board that a test has made, without a plotter driver around it. */
 import { MachinePlot } from "../../../host/plotter/machine-plot.js";
 import type { RunningPlot, PlotProgress } from "../../../host/plotter/plotter-port.js";
-import { driver as ebbDriver } from "../../../src/drivers/ebb/controller.js";
+import { driver as ebbDriver } from "../../../src/drivers/ebb/driver.js";
 import type { StrokeSet, Trajectory, VirtualBoard } from "../../../src/index.js";
 import type { Machine } from "../../../src/internal.js";
 import type { PlotSettings } from "../../../src/schema/index.js";

@@ -1,7 +1,7 @@
 /** A machine with one switch in its corner, as a NextDraw: it finds home by itself, and says what keeps it from that. */
 import fc from "fast-check";
 import { describe, expect, it, vi } from "vitest";
-import { driver as ebbDriver } from "../../../../src/drivers/ebb/controller.js";
+import { driver as ebbDriver } from "../../../../src/drivers/ebb/driver.js";
 import type { JournalEntry } from "../../../../host/plotter/plotter-port.js";
 import { machineById, VirtualBoard, type StrokePosition } from "../../../../src/index.js";
 import { findsHome, type Machine } from "../../../../src/internal.js";
