@@ -211,7 +211,7 @@ describe("a bundler of a program", () => {
     ["DEFAULT_MOTION, DEFAULT_PEN, DEFAULT_PREPARE", 6],
     ["stateAt, trajectoryStats", 6],
     ["plan, VirtualBoard", 40],
-    ["planSvg", 125],
+    ["planSvg", 120],
   ])("takes for %s at most %d kB", async (names, limitKb) => {
     const kb = await firstLoadKb(names);
     expect(kb).toBeGreaterThan(0.2);

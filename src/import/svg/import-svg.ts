@@ -20,7 +20,8 @@ import type { Declared } from "./css/properties.js";
 import { type ColorParser, parseHexColor } from "../color.js";
 import { DrawingBuilder } from "../drawing-builder.js";
 import type { Context } from "./svg-context.js";
-import { SvgClips } from "./masks/clips.js";
+import type { referencedBy } from "./referenced.js";
+import { ElementBoxes } from "./element-boxes.js";
 import { checkImportOptions, type ImportOptions } from "../import-options.js";
 import { SvgPaintServers } from "./shapes/paint-servers.js";
 import { SvgGeometry } from "./shapes/basic-shapes.js";
@@ -66,7 +67,7 @@ async function draw(
   warnings: Warnings,
 ): Promise<SizedPage & { readonly builder: DrawingBuilder }> {
   const tree = parseSvgTree(text);
-  const { styles, parseColor, texts } = await neededFor(tree, options);
+  const { styles, parseColor, texts, referencedBy } = await neededFor(tree, options);
   const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
   const file = new SvgFile(tree, styles, parseColor, languages);
   const { cascade, layers } = file;
@@ -86,33 +87,44 @@ async function draw(
   const pageBox = pageFrom === "extent" ? null : { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
   const servers = new SvgPaintServers(file);
   const painter = new SvgPainter(file, geometry, texts, servers, builder, warnings, pageBox);
-  const clips = new SvgClips(file, geometry, painter, warnings);
-  const walk = new SvgWalk(file, geometry, clips, painter, builder, warnings);
+  const boxes = new ElementBoxes(file, geometry, painter, warnings);
+  const referenced = referencedBy?.(file, geometry, boxes, painter, warnings) ?? null;
+  const walk = new SvgWalk(file, geometry, boxes, referenced, painter, builder, warnings);
   if (isShown(root)) walk.run(context);
   for (const selector of styles?.slowSelectors ?? [])
     warnings.add("style-slow", undefined, selector.slice(0, 80));
   return { builder, page, pxPerInch };
 }
 
-/** What only some files need. */
+/** What only some files need. Null: this file does not. */
 interface Needed {
   readonly styles: CssStyles | null;
   readonly parseColor: ColorParser;
   readonly texts: TextPlacer | null;
+  readonly referencedBy: typeof referencedBy | null;
 }
 
+/** The attributes by which shapes refer to others. Styles can do so too. */
+const REFERENCES = ["clip-path", "mask", "marker-start", "marker-mid", "marker-end"];
+
 /**
- * Imports what a file needs for its CSS, its colours and its text. So a program that uses the library loads these large
- * parts only for a file that has them.
+ * Imports what a file needs for its CSS, its colours, its text, and its clips, masks and markers. So a program that uses the
+ * library loads these large parts only for a file that has them.
  */
 async function neededFor(tree: SvgTree, options: ImportOptions): Promise<Needed> {
-  const hasStyles = tree.names.includes("style");
-  const hasText = tree.names.includes("text");
+  const has = (name: string): boolean => tree.names.includes(name);
+  const hasStyles = has("style");
   const styles = hasStyles ? new (await import("./css/css-styles.js")).CssStyles(tree) : null;
   const parseColor =
     hasStyles || !hasSimplePaints(tree) ? (await import("../css-color.js")).parseCssColor : parseHexColor;
-  const texts = hasText ? (await import("./text/placed-text.js")).textPlacerOf(options) : null;
-  return { styles, parseColor, texts };
+  const texts = has("text") ? (await import("./text/placed-text.js")).textPlacerOf(options) : null;
+  const refers = hasStyles || REFERENCES.some(has);
+  return {
+    styles,
+    parseColor,
+    texts,
+    referencedBy: refers ? (await import("./referenced.js")).referencedBy : null,
+  };
 }
 
 const COLOR_ATTRIBUTES = new Set(["fill", "stroke", "color", "stop-color"]);

@@ -23,9 +23,10 @@ import {
 } from "./svg-context.js";
 import { effectsOf, isErased, warnOf, withoutTextStyles, type Effects, backgroundOf } from "./svg-effects.js";
 import type { SvgFile } from "./svg-file.js";
-import type { SvgClips } from "./masks/clips.js";
-import { markerPlaces, insideMarker } from "./shapes/markers.js";
-import { SvgMasks, type DrawApart } from "./masks/masks.js";
+import type { ClipNode } from "../clip-node.js";
+import type { DrawApart, MaskClip } from "./masks/masks.js";
+import type { Referenced } from "./referenced.js";
+import type { ElementBoxes } from "./element-boxes.js";
 import { LayerGroups } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
 import {
@@ -40,7 +41,7 @@ import {
 import { declaredValue, parseOpacity, type Style } from "./css/style.js";
 import { withoutAlignment, withoutShift } from "./css/text-style.js";
 import { viewportInside } from "./svg-viewport.js";
-import { type ReadDrawing, Warnings } from "../warnings.js";
+import { Warnings } from "../warnings.js";
 import { DrawingBuilder } from "../drawing-builder.js";
 
 /**
@@ -88,22 +89,20 @@ export class SvgWalk {
   private copiedCoords = 0;
   /** The texts drawn so far. */
   private textCount = 0;
-  private readonly masks: SvgMasks;
   private readonly layerGroups: LayerGroups;
   private subtreeEnds: Uint32Array | null = null;
 
   constructor(
     private readonly file: SvgFile,
     private readonly svgGeometry: SvgGeometry,
-    private readonly clips: SvgClips,
+    private readonly boxes: ElementBoxes,
+    /** Null: no shape of the file refers to any. */
+    private readonly referenced: Referenced | null,
     private readonly painter: SvgPainter,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
-    masks: SvgMasks | null = null,
   ) {
     this.layerGroups = new LayerGroups(file.tree, file.layers, builder, warnings);
-    const drawApart: DrawApart = (element, context, work) => this.drawApart(element, context, work);
-    this.masks = masks ?? new SvgMasks(file, clips, drawApart);
   }
 
   /** Draws everything below the root. */
@@ -132,30 +131,29 @@ export class SvgWalk {
   }
 
   /** Draws the content of `element` into a separate drawing, whose warnings include its errors and effects. */
-  private drawApart(element: number, context: Context, work: { left: number }): ReadDrawing | null {
-    const { file, svgGeometry, clips, masks } = this;
+  private readonly drawApart: DrawApart = (element, context, work) => {
+    const { file, svgGeometry, boxes, referenced } = this;
     const warnings = new Warnings();
     const builder = new DrawingBuilder(warnings);
     const painter = this.painter.forMask(builder, warnings);
-    const walk = new SvgWalk(file, svgGeometry, clips, painter, builder, warnings, masks);
+    const walk = new SvgWalk(file, svgGeometry, boxes, referenced, painter, builder, warnings);
     walk.push(context, file.tree.firstChildren[element], false, []);
     while (work.left-- > 0 && walk.step());
     if (work.left < 0) return null;
     work.left -= builder.coordCount;
     return builder.finish(1, 1);
-  }
+  };
 
   /** The root element may have a clip, effects and a speed, too. */
   private enterRoot(outer: Context): void {
     const context = this.withSpeed(0, outer);
     const { cascade, parseColor } = this.file;
     const declared = cascade.declaredOf(0);
-    const value = declaredValue(context.style, declared, "clip-path");
     const effects = [
       ...effectsOf(context.style, declared, parseColor),
       ...backgroundOf(context.style, declared, parseColor),
     ];
-    const clip = this.clips.clipOf(0, value, context);
+    const clip = this.clipOf(0, declared, context);
     if (clip !== "empty") this.push({ ...context, clip }, this.file.tree.firstChildren[0], false, effects);
   }
 
@@ -201,10 +199,10 @@ export class SvgWalk {
     let context = withStyle(group === outer.group ? styled : { ...styled, group }, style, transform);
     let effects = effectsOf(style, declared, this.file.parseColor);
     if (isErased(this.file.tree, style, declared)) return;
-    const clip = this.clips.clipOf(element, declaredValue(style, declared, "clip-path"), context);
+    const clip = this.clipOf(element, declared, context);
     if (clip === "empty") return;
     if (clip !== context.clip) context = { ...context, clip };
-    const mask = this.masks.clipOf(element, declaredValue(style, declared, "mask"), context);
+    const mask = this.maskOf(element, declared, context);
     if (mask?.clip === "empty") return;
     if (mask !== null) {
       context = { ...context, clip: mask.clip };
@@ -213,6 +211,16 @@ export class SvgWalk {
     context = this.withSpeed(element, context);
     if (!isContainer) this.visitLeaf(element, tag, declared, context, effects);
     else this.enter(element, tag, declared, context, effects);
+  }
+
+  private clipOf(element: number, declared: Declared, context: Context): ClipNode | null | "empty" {
+    const value = declaredValue(context.style, declared, "clip-path");
+    return this.referenced === null ? context.clip : this.referenced.clips.clipOf(element, value, context);
+  }
+
+  private maskOf(element: number, declared: Declared, context: Context): MaskClip | null {
+    const value = declaredValue(context.style, declared, "mask");
+    return this.referenced?.masks.clipOf(element, value, context, this.drawApart) ?? null;
   }
 
   /**
@@ -313,9 +321,10 @@ export class SvgWalk {
   private pushMarkers(context: Context): void {
     const { tree } = this.file;
     const { style } = context;
-    if (!style.isVisible) return;
+    const { referenced } = this;
+    if (referenced === null || !style.isVisible) return;
     const ids = { start: style.markerStart, mid: style.markerMid, end: style.markerEnd };
-    const places = markerPlaces(this.svgGeometry.shape);
+    const places = referenced.markerPlaces(this.svgGeometry.shape);
     // In reverse, since the last frame pushed is drawn first.
     for (const place of places.reverse()) {
       const id = ids[place.kind];
@@ -323,7 +332,7 @@ export class SvgWalk {
       if (marker === undefined || tagOf(tree, marker) !== "marker") continue;
       if (isInsideUseOf(context.uses, marker)) continue;
       this.spendCopy(context);
-      const inner = insideMarker(this.file, marker, place, context);
+      const inner = referenced.insideMarker(this.file, marker, place, context);
       if (inner !== null) this.push(inner, tree.firstChildren[marker], false, []);
     }
   }
@@ -358,7 +367,7 @@ export class SvgWalk {
   }
 
   private transformOf(element: number, style: Style, declared: Declared, outer: Context): Affine {
-    const boxOf = (): Box | null => this.clips.boxOf(element, { ...outer, style });
+    const boxOf = (): Box | null => this.boxes.boxOf(element, { ...outer, style });
     const map = elementTransform(style, declared, outer.basis, boxOf);
     if (map === null) {
       this.warnings.add("attribute-fault", undefined, `transform at line ${this.file.tree.lines[element]}`);

@@ -6,20 +6,20 @@
  */
 import { RULE_EVENODD, RULE_NONZERO, VERB_MOVE } from "../../../drawing/drawing.js";
 import { compose, IDENTITY, scaling, translation, type Affine } from "../../../geometry/affine.js";
-import { EMPTY_BOX, isEmptyBox, mapBox, uniteBoxes, type Box } from "../../../geometry/box.js";
+import type { Box } from "../../../geometry/box.js";
 import { SHAPE_TAGS, type SvgGeometry } from "../shapes/basic-shapes.js";
+import { copyOf, type ElementBoxes } from "../element-boxes.js";
 import { cssClipShape, splitReferenceBox } from "./css-clip-shape.js";
 import { MAX_COORDINATE_MM } from "../../drawing-builder.js";
 import { clippedShape } from "./clip-shapes.js";
 import { ClipNode, type ClipShapes } from "../../clip-node.js";
 import { getOrAdd } from "../../../get-or-add.js";
 import { elementTransform } from "../css/transform.js";
-import { lengthPx } from "../css/length.js";
-import { curveBox, ShapeBuffer } from "../../shape-buffer.js";
+import { ShapeBuffer } from "../../shape-buffer.js";
 import { withStyle, type Context, contentKey } from "../svg-context.js";
 import type { SvgFile } from "../svg-file.js";
 import type { SvgPainter } from "../svg-painter.js";
-import { attribute, childrenOf, HREF, tagOf } from "../svg-tree.js";
+import { attribute, childrenOf, tagOf } from "../svg-tree.js";
 import { declaredValue, parseUrl } from "../css/style.js";
 import type { Warnings } from "../../warnings.js";
 import { clamp } from "../../../geometry/polyline.js";
@@ -28,8 +28,6 @@ import { clamp } from "../../../geometry/polyline.js";
 const MAX_NESTING = 16;
 /** Max clips on the shapes of clipPaths, in the whole file. */
 const MAX_CHILD_CLIPS = 10_000;
-/** Max elements measured for objectBoundingBox, in the whole file. */
-const MAX_MEASURED = 1_000_000;
 
 interface BuiltClip {
   readonly shapes: ClipShapes;
@@ -39,7 +37,6 @@ interface BuiltClip {
 
 export class SvgClips {
   private readonly built = new Map<string, BuiltClip | null>();
-  private measured = 0;
   private childClips = 0;
   private childNesting = 0;
   /** The clipPaths that are being built, to find those that refer to themselves. */
@@ -48,6 +45,7 @@ export class SvgClips {
   constructor(
     private readonly file: SvgFile,
     private readonly geometry: SvgGeometry,
+    private readonly boxes: ElementBoxes,
     /** Lays out text. */
     private readonly painter: SvgPainter,
     private readonly warnings: Warnings,
@@ -73,7 +71,7 @@ export class SvgClips {
     }
     let units = IDENTITY;
     if (attribute(tree, target, "clipPathUnits") === "objectBoundingBox") {
-      const box = this.boxOf(element, context);
+      const box = this.boxes.boxOf(element, context);
       if (box === null) return context.clip;
       units = boxUnits(box);
     }
@@ -85,7 +83,7 @@ export class SvgClips {
     if (!value.includes("(") || value.startsWith("url(")) return null;
     const { shape: text, isViewBox } = splitReferenceBox(value);
     const { viewportWidth: x1, viewportHeight: y1 } = context.basis;
-    const box = isViewBox ? { x0: 0, y0: 0, x1, y1 } : this.boxOf(element, context);
+    const box = isViewBox ? { x0: 0, y0: 0, x1, y1 } : this.boxes.boxOf(element, context);
     if (box === null) return null;
     const clip = cssClipShape(text, box, context.basis);
     if (clip === null) return null;
@@ -150,7 +148,7 @@ export class SvgClips {
     const declared = this.file.cascade.declaredOf(child);
     const style = this.file.computeStyle(outer.style, declared, outer.basis);
     if (declaredValue(style, declared, "display") === "none") return;
-    const boxOf = (): Box | null => this.boxOf(child, { ...outer, style });
+    const boxOf = (): Box | null => this.boxes.boxOf(child, { ...outer, style });
     const transform = elementTransform(style, declared, outer.basis, boxOf) ?? IDENTITY;
     const moved = withStyle(outer, style, transform);
     const clip = this.clipOfChild(child, declaredValue(style, declared, "clip-path"), moved);
@@ -187,53 +185,11 @@ export class SvgClips {
 
   /** Inside a clipPath, `use` may only refer to a shape or a text. */
   private addUse(use: number, context: Context, collector: ClipCollector): void {
-    const { target, shift } = this.copyOf(use, context);
+    const { target, shift } = copyOf(this.file.tree, use, context.basis);
     if (target === undefined) return;
     const tag = tagOf(this.file.tree, target);
     if (!SHAPE_TAGS.has(tag) && tag !== "text") return;
     this.addChild(target, { ...context, map: compose(context.map, shift) }, collector);
-  }
-
-  /** What a `use` refers to, and where it places that. */
-  private copyOf(use: number, { basis }: Context): { target: number | undefined; shift: Affine } {
-    const { tree } = this.file;
-    const x = lengthPx(attribute(tree, use, "x") ?? "0", basis, "width") ?? 0;
-    const y = lengthPx(attribute(tree, use, "y") ?? "0", basis, "height") ?? 0;
-    const target = tree.elementById.get((attribute(tree, use, HREF) ?? "").trim().slice(1));
-    return { target, shift: translation(x, y) };
-  }
-
-  /** The box of an element's geometry in its own user units; null if it has none, or if there is too much to measure. */
-  boxOf(element: number, context: Context): Box | null {
-    const { tree } = this.file;
-    let box = EMPTY_BOX;
-    const pending: { element: number; map: Affine }[] = [{ element, map: IDENTITY }];
-    while (pending.length > 0) {
-      const { element: at, map } = pending.pop()!;
-      if (++this.measured > MAX_MEASURED) {
-        this.warnings.add("clip-ignored", undefined, "too many objectBoundingBox clips");
-        return null;
-      }
-      const tag = tagOf(tree, at);
-      const declared = this.file.cascade.declaredOf(at);
-      const style = this.file.computeStyle(context.style, declared, context.basis);
-      if (declaredValue(style, declared, "display") === "none") continue;
-      const own = at === element ? IDENTITY : elementTransform(style, declared, context.basis, () => null);
-      const inner = own === null || own === IDENTITY ? map : compose(map, own);
-      if (SHAPE_TAGS.has(tag)) {
-        box = uniteBoxes(box, mapBox(inner, curveBox(this.geometry.geometryOf(at, tag, declared, context))));
-      } else if (tag === "text") {
-        box = uniteBoxes(box, mapBox(inner, this.painter.textBox(at, withStyle(context, style, IDENTITY))));
-      } else if (tag === "use") {
-        const { target, shift } = this.copyOf(at, context);
-        if (target !== undefined && pending.length < MAX_NESTING * 1000) {
-          pending.push({ element: target, map: compose(inner, shift) });
-        }
-      } else if (tag === "g" || tag === "a" || tag === "svg" || tag === "switch" || tag === "symbol") {
-        for (const child of childrenOf(tree, at)) pending.push({ element: child, map: inner });
-      }
-    }
-    return isEmptyBox(box) ? null : box;
   }
 }
 

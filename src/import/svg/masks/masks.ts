@@ -9,7 +9,8 @@ import { curvesOf, VERB_MOVE } from "../../../drawing/drawing.js";
 import { ClipNode, type ClipShapes, rectangleClip } from "../../clip-node.js";
 import { getOrAdd } from "../../../get-or-add.js";
 import { basisOfBox, lengthPx, type Side } from "../css/length.js";
-import { boxUnits, type SvgClips } from "./clips.js";
+import type { ElementBoxes } from "../element-boxes.js";
+import { boxUnits } from "./clips.js";
 import { withStyle, type Context, contentKey } from "../svg-context.js";
 import { effectsOf } from "../svg-effects.js";
 import type { SvgFile } from "../svg-file.js";
@@ -26,7 +27,7 @@ const MAX_MASK_WORK = 2_000_000;
 /** Cost of combining one shape with the others, in coordinates. Each use of a mask costs the same. */
 const WORK_PER_SHAPE = 100;
 
-interface MaskClip {
+export interface MaskClip {
   readonly clip: ClipNode | "empty";
   /** Whether the mask also fades, which is not drawn. */
   readonly isFaint: boolean;
@@ -43,12 +44,16 @@ export class SvgMasks {
 
   constructor(
     private readonly file: SvgFile,
-    private readonly clips: SvgClips,
-    private readonly drawApart: DrawApart,
+    private readonly boxes: ElementBoxes,
   ) {}
 
   /** The mask of `element` with this `mask` value, inside the context's clip; null if it is not applied. */
-  clipOf(element: number, value: string | undefined, context: Context): MaskClip | null {
+  clipOf(
+    element: number,
+    value: string | undefined,
+    context: Context,
+    drawApart: DrawApart,
+  ): MaskClip | null {
     const { tree } = this.file;
     const id = value === undefined ? null : parseUrl(value);
     const target = id === null ? undefined : tree.elementById.get(id);
@@ -65,22 +70,27 @@ export class SvgMasks {
     )
       return null;
     const isAlpha = declaredValue(style, declared, "mask-type") === "alpha";
-    const box = this.clips.boxOf(element, context);
+    const box = this.boxes.boxOf(element, context);
     if (box === null) return null;
     const outside = this.regionOf(target, box, context);
     const isOfBox = attribute(tree, target, "maskContentUnits") === "objectBoundingBox";
     const map = isOfBox ? compose(context.map, boxUnits(box)) : context.map;
     const inside = { ...context, map, group: -1, clip: null, uses: null };
-    const region = this.contentOf(target, withStyle(inside, style, IDENTITY), isAlpha);
+    const region = this.contentOf(target, withStyle(inside, style, IDENTITY), isAlpha, drawApart);
     if (region === null) return null;
     const { shapes, isFaint } = region;
     return { clip: shapes === null ? "empty" : new ClipNode(outside, shapes), isFaint };
   }
 
-  private contentOf(target: number, context: Context, isAlpha: boolean): MaskRegion | null {
+  private contentOf(
+    target: number,
+    context: Context,
+    isAlpha: boolean,
+    drawApart: DrawApart,
+  ): MaskRegion | null {
     return getOrAdd(this.regions, contentKey(target, context), () => {
       this.open.add(target);
-      const content = this.drawApart(target, context, this.work);
+      const content = drawApart(target, context, this.work);
       this.open.delete(target);
       this.work.left -= WORK_PER_SHAPE * (1 + (content?.paths.count ?? 0));
       return content === null ? null : maskRegion(content, isAlpha);
