@@ -196,7 +196,6 @@ export {
 export { allDrivers, driverOf } from "./drivers/connecting.js";
 export { scaledClock } from "./drivers/transport.js";
 export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
-export type { GrblController } from "./drivers/grbl/model/grbl-controller.js";
 export type {
   Driver,
   Machine,

@@ -287,7 +287,7 @@ export const declareBoard: Declare = (command, { io }) => {
     .requiredOption("--pty <path>", "path where the serial port appears")
     .option(
       "--firmware <version>",
-      "firmware of the board, for example 3.0.3 or grblHAL (default: 2.8.1, of a NextDraw 3.0.3, of a Grbl 1.1)",
+      "firmware of the board, for example 3.0.3 (default: one that the plotter usually has)",
     )
     .addOption(
       new Option("--speed <factor>", "board seconds per real second (default: 1)").argParser(positive),

@@ -1,5 +1,6 @@
 import type { MachineProfile } from "../../../src/index.js";
-import type { MachineEvents, GrblController } from "../../../src/internal.js";
+import type { GrblController } from "../../../src/drivers/grbl/model/grbl-controller.js";
+import type { MachineEvents } from "../../../src/internal.js";
 
 /** A mixed-axes machine of 80 microsteps a millimetre. */
 export const AXIDRAW_LIKE: MachineProfile = {

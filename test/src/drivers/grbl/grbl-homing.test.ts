@@ -1,7 +1,7 @@
 /** A Grbl that finds home with its switches ($H). */
 import { describe, expect, it } from "vitest";
 import { findsHome } from "../../../../src/drivers/registry.js";
-import type { GrblController } from "../../../../src/internal.js";
+import type { GrblController } from "../../../../src/drivers/grbl/model/grbl-controller.js";
 import type { MachineProfile } from "../../../../src/index.js";
 import { GRBL, GRBL_SERVO } from "../../../support/machines/machine.js";
 import { LIMIT_S, newPlotter, SETTINGS } from "../../../support/plots/grbl-plotter.js";
