@@ -1,4 +1,5 @@
 /** A job for one machine: its motion, and the commands that make the machine perform it. */
+import type { PenSetup } from "../prepare/layers/pens.js";
 import type { Cancellation } from "../prepare/work.js";
 import type { StrokeSet } from "../drawing/stroke-set.js";
 import type { MachineProfile } from "../machines/profile.js";
@@ -96,10 +97,10 @@ export interface FirmwareRules {
   advice(firmware: string): string | null;
 }
 
-/** Makes a job from strokes, and from settings with the codes of the layer names applied. */
+/** Makes a job from strokes, and from settings with the codes of the layer names applied. The pens are for its `lines`. */
 export type PlanForMachine = (
   strokes: StrokeSet,
-  settings: JobSettings,
+  settings: JobSettings & Partial<PenSetup>,
   machine: MachineProfile,
   options: DriverPlanOptions,
 ) => MachineJob;

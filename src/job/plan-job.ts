@@ -11,6 +11,7 @@ import { checkStrokes, type StrokeSet } from "../drawing/stroke-set.js";
 import type { DriverPlanOptions, JobSettings, MachineJob } from "../drivers/machine-job.js";
 import { checkMachine, plannerOf } from "../drivers/registry.js";
 import type { MachineProfile } from "../machines/profile.js";
+import type { PenSetup } from "../prepare/layers/pens.js";
 import { checkSettingNames } from "../plan/check-settings.js";
 import { withLayerCodes } from "../plan/coded-layers.js";
 import { DEFAULT_MOTION } from "../settings/motion.js";
@@ -27,7 +28,7 @@ export interface JobOptions extends DriverPlanOptions {
 
 /**
  * Plans `strokes` for a machine, from any position in the drawing to any stroke. Settings that are left out have their
- * defaults: `{ motion: { draw: { speedMmPerS: 40 } } }`.
+ * defaults: `{ motion: { draw: { speedMmPerS: 40 } } }`. The pens of the layers only matter for `lines` of a Grbl.
  *
  * @throws PlotwrightError "bad-setting" for contradictory settings, an invalid firmware version or an incomplete
  *   machine profile; "cancelled"
@@ -35,7 +36,7 @@ export interface JobOptions extends DriverPlanOptions {
  */
 export function planJob(
   prepared: { readonly strokes: StrokeSet },
-  settings: DeepPartial<JobSettings>,
+  settings: DeepPartial<JobSettings> & Partial<PenSetup>,
   machine: MachineProfile,
   { until = null, ...options }: JobOptions = {},
 ): MachineJob {

@@ -7,6 +7,7 @@ import { penOfLayer } from "../../plan/pen/pen-times.js";
 import { penMovesOf } from "../../plan/pen/pen-moves.js";
 import { plan } from "../../plan/plan.js";
 import { runEndS, type Trajectory } from "../../plan/trajectory.js";
+import { NO_PENS, penOf, penStopsOf, type PenSetup } from "../../prepare/layers/pens.js";
 import type { PenSettings } from "../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from "../machine-job.js";
 import { axisLimits, dwellS, grblOf } from "./model/grbl-controller.js";
@@ -42,10 +43,12 @@ export interface GrblState {
 export const MODES = "G21G90G94";
 /** The reply comes when everything before it is done. */
 export const SYNC = "G4P0";
+/** Waits until the user resumes. */
+const WAIT_FOR_USER = "M0";
 
 export function planGrblJob(
   strokes: StrokeSet,
-  { motion, pen }: JobSettings,
+  { motion, pen, ...penSetup }: JobSettings & Partial<PenSetup>,
   machine: MachineProfile,
   options: DriverPlanOptions,
 ): MachineJob<GrblCommands> {
@@ -76,15 +79,17 @@ export function planGrblJob(
       isUp: !options.liftFirst,
       downPct: pen.downPct,
     }));
-  return { trajectory, commands, lines: () => fileLines(machine, trajectory, pen, commands()) };
+  const lines = (): string[] =>
+    fileLines(machine, trajectory, commands(), layerComments(strokes, pen, { ...NO_PENS, ...penSetup }));
+  return { trajectory, commands, lines };
 }
 
-/** For any sender: with comments, which Grbl skips, at the beginning and at each layer. */
+/** For any sender: with comments, which Grbl skips, at the beginning and at each layer, and waits for other pens. */
 function fileLines(
   machine: MachineProfile,
   { totalS }: Trajectory,
-  pen: PenSettings,
   { lines, layerAt }: GrblCommands,
+  linesBefore: (layer: StrokeLayer, travel: string) => readonly string[],
 ): string[] {
   const about = [
     comment(`For ${machine.name}: about ${Math.ceil(totalS / 60)} min. Begins with the pen up, at home.`),
@@ -93,12 +98,29 @@ function fileLines(
   return about.concat(
     lines.flatMap((line, i) => {
       const layer = layerAt.get(i);
-      if (!layer) return [line];
-      const { upPct, downPct } = penOfLayer(pen, settingsIdOf(layer));
-      const color = layer.color === null ? "" : `, ${layer.color}`;
-      return [comment(`Layer ${layer.name}${color}: pen down at ${downPct} %, up at ${upPct} %`), line];
+      return layer ? [...linesBefore(layer, line), line] : [line];
     }),
   );
+}
+
+/** What is before a layer: where its pen is put in, the way home and a wait for the user; then what is drawn with which pen. */
+function layerComments(strokes: StrokeSet, pen: PenSettings, setup: PenSetup) {
+  const stops = penStopsOf(strokes, setup);
+  return (layer: StrokeLayer, travel: string): readonly string[] => {
+    const { upPct, downPct } = penOfLayer(pen, settingsIdOf(layer));
+    const itsPen = penOf(setup, layer);
+    const color = itsPen?.color ?? layer.color;
+    const colored = (name: string): string => (color === null ? name : `${name}, ${color}`);
+    const stop = stops.find(({ layerId }) => layerId === layer.id);
+    const change = stop && [
+      comment(colored(`Put in ${itsPen ? `the pen ${itsPen.name}` : "the pen for this layer"}`)),
+      // At the speed of the travel to the layer.
+      `G1X0Y0${/F[\d.]+$/.exec(travel)?.[0] ?? ""}`,
+      WAIT_FOR_USER,
+    ];
+    const name = `Layer ${layer.name}${itsPen ? `, pen ${itsPen.name}` : ""}`;
+    return [...(change ?? []), comment(`${colored(name)}: pen down at ${downPct} %, up at ${upPct} %`)];
+  };
 }
 
 /**
