@@ -7,15 +7,21 @@
  *   value             share of the ramp        radius            device px, of the narrowest line
  *   share             of value, of time        widthMm           of a full alpha in the palette; 0: all are equally narrow
  *   cutOffS           s: the time that the pen has reached; the piece under it ends there
+ *   ends              device px along the piece: what is drawn of it (`beyondJoint`)
  *   colorBy           0 value, 1 time, 2 layer, 3 plain
  */
+
+import { FLUSH_PX, FLUSH_REACH_PX, JOINT_STEP, OVERLAP_PX } from "./pieces.js";
+
+/** As a literal of the shader's language. */
+const float = (value: number): string => value.toFixed(6);
 
 const VERTEX = `#version 300 es
 precision highp float;
 layout(location = 0) in vec4 line;
 layout(location = 1) in vec2 time;
 layout(location = 2) in vec2 value;
-layout(location = 3) in float layer;
+layout(location = 3) in vec2 layerJoints;
 uniform float scale;
 uniform vec2 turn, offset, viewport;
 uniform float radius;
@@ -26,12 +32,19 @@ uniform float cutOffS;
 out vec2 local;
 flat out float reach;
 flat out float len;
+flat out vec2 ends;
 out vec2 share;
 flat out float layerIndex;
+float beyondJoint(float code, float end) {
+  float beyond = (code - 1.0) * ${float(JOINT_STEP)} * reach;
+  bool isFlush = code > 0.0 && beyond < ${float(FLUSH_PX)} && reach < ${float(FLUSH_REACH_PX)};
+  return isFlush ? 2.0 * beyond + ${float(OVERLAP_PX)} : end;
+}
 vec2 onScreen(vec2 mm) {
   return vec2(turn.x * mm.x - turn.y * mm.y, turn.y * mm.x + turn.x * mm.y) * scale + offset;
 }
 void main() {
+  float layer = layerJoints.x;
   vec2 a = onScreen(line.xy);
   float part = time.y > time.x ? clamp((cutOffS - time.x) / (time.y - time.x), 0.0, 1.0) : 1.0;
   vec2 b = onScreen(mix(line.xy, line.zw, part));
@@ -42,6 +55,9 @@ void main() {
     reach = max(radius, texelFetch(palette, ivec2(int(layer), 0), 0).a * widthMm * scale / 2.0);
   }
   float r = reach + 1.0;
+  float after = floor(layerJoints.y / 256.0);
+  float before = layerJoints.y - 256.0 * after;
+  ends = vec2(beyondJoint(before, -1.0) < 0.0 ? -r : 0.0, len + (part < 1.0 ? r : beyondJoint(after, r)));
   float along = (gl_VertexID & 2) != 0 ? len + r : -r;
   float side = (gl_VertexID & 1) != 0 ? r : -r;
   vec2 p = a + u * along + vec2(-u.y, u.x) * side;
@@ -59,12 +75,14 @@ flat in float len;
 in vec2 share;
 flat in float layerIndex;
 flat in float reach;
+flat in vec2 ends;
 uniform int colorBy;
 uniform vec4 plain;
 uniform sampler2D ramp;
 uniform sampler2D palette;
 out vec4 color;
 void main() {
+  if (local.x < ends.x || local.x > ends.y) discard;
   float d = length(vec2(local.x - clamp(local.x, 0.0, len), local.y));
   float alpha = clamp(reach + 0.5 - d, 0.0, 1.0);
   if (alpha <= 0.0) discard;

@@ -260,7 +260,7 @@ class GlRenderer implements SceneRenderer {
     gl.vertexAttribPointer(0, 4, gl.FLOAT, false, PIECE_BYTES, base);
     gl.vertexAttribPointer(1, 2, gl.FLOAT, false, PIECE_BYTES, base + 16);
     gl.vertexAttribPointer(2, 2, gl.UNSIGNED_SHORT, true, PIECE_BYTES, base + VALUE_SHORT * 2);
-    gl.vertexAttribPointer(3, 1, gl.UNSIGNED_SHORT, false, PIECE_BYTES, base + LAYER_SHORT * 2);
+    gl.vertexAttribPointer(3, 2, gl.UNSIGNED_SHORT, false, PIECE_BYTES, base + LAYER_SHORT * 2);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, to - from);
   }
 }

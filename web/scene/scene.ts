@@ -8,7 +8,16 @@
 import type { Trajectory } from "../../src/index.js";
 import type { StrokeLayer } from "../../src/internal.js";
 import { buildPickGrid, type PickGrid } from "./pick.js";
-import { LAYER_SHORT, PIECE_BYTES, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT, type Pieces } from "./pieces.js";
+import {
+  jointCode,
+  JOINT_SHORT,
+  LAYER_SHORT,
+  PIECE_BYTES,
+  PIECE_FLOATS,
+  PIECE_SHORTS,
+  VALUE_SHORT,
+  type Pieces,
+} from "./pieces.js";
 
 const CHORD_MM = 0.008;
 const SPEED_STEP = 0.05;
@@ -61,6 +70,7 @@ export const buildScene = (
     const writer = stroke >= 0 ? draw : travel;
     const layer = stroke >= 0 ? strokeLayer[stroke] : 0;
     writer.shift = (stroke >= 0 && shifts?.[layer]) || NO_SHIFT;
+    writer.beginRun();
     if (stroke >= 0 && isDot(trajectory, r)) writer.addDot(trajectory, r, layer);
     for (let b = runs.firstBlock[r]; b < runs.firstBlock[r + 1]; b++) {
       writer.addBlock(trajectory, b, pieceCount(trajectory, b, writer.topMmPerS), layer);
@@ -138,6 +148,8 @@ class PieceWriter {
   private readonly floats: Float32Array;
   private readonly shorts: Uint16Array;
   private at = 0;
+  /** The first piece of the run. */
+  private runAt = 0;
 
   constructor(
     count: number,
@@ -146,6 +158,27 @@ class PieceWriter {
     this.bytes = new ArrayBuffer(count * PIECE_BYTES);
     this.floats = new Float32Array(this.bytes);
     this.shorts = new Uint16Array(this.bytes);
+  }
+
+  beginRun(): void {
+    this.runAt = this.at;
+  }
+
+  /** Notes how the piece that was written last follows the one before it in its run. */
+  private join(): void {
+    if (this.at === this.runAt) return;
+    const { floats, shorts } = this;
+    const b = this.at * PIECE_FLOATS;
+    const a = b - PIECE_FLOATS;
+    const code = jointCode(
+      floats[a + 2] - floats[a],
+      floats[a + 3] - floats[a + 1],
+      floats[b + 2] - floats[b],
+      floats[b + 3] - floats[b + 1],
+    );
+    const s = this.at * PIECE_SHORTS + JOINT_SHORT;
+    shorts[s] = code;
+    shorts[s - PIECE_SHORTS] += code << 8;
   }
 
   addDot(trajectory: Trajectory, run: number, layer: number): void {
@@ -191,6 +224,7 @@ class PieceWriter {
       this.shorts[s + VALUE_SHORT] = Math.min(65_535, ps * toShort);
       this.shorts[s + VALUE_SHORT + 1] = Math.min(65_535, qs * toShort);
       this.shorts[s + LAYER_SHORT] = layer;
+      this.join();
       this.at++;
       px = qx;
       py = qy;

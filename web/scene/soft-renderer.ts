@@ -6,6 +6,8 @@
  *   reach  half the line's width, device px
  *   alpha  reach + 1/2 − d, clamped to 0 … 1: how much of the pixel the line covers
  *
+ * Where a stroke goes on almost straight, a piece ends without a round end (`beyondJoint`).
+ *
  * Pixels are premultiplied RGBA. Pieces are in order of time, so the result does not depend on the number of parts.
  */
 import { bytesFromHex, RAMP_SIZE, rampBytes } from "./color-map.js";
@@ -22,7 +24,7 @@ import {
   type Picture,
   type SceneRenderer,
 } from "./renderer.js";
-import { LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT } from "./pieces.js";
+import { beyondJoint, JOINT_SHORT, LAYER_SHORT, PIECE_FLOATS, PIECE_SHORTS, VALUE_SHORT } from "./pieces.js";
 import { screenMap } from "./view.js";
 import {
   cutOffS,
@@ -138,6 +140,10 @@ class SoftRenderer implements SceneRenderer {
       const part = durationS > 0 ? Math.min(1, (untilS - floats[f + 4]) / durationS) : 1;
       brush.reach = look.reaches[layer] ?? look.reaches[0];
       brush.alpha = look.alpha;
+      const joints = shorts[s + JOINT_SHORT];
+      brush.isFlush = beyondJoint(joints & 255, brush.reach) !== null;
+      // Under the pen the line ends, whatever follows.
+      brush.beyondPx = (part < 1 ? null : beyondJoint(joints >> 8, brush.reach)) ?? Infinity;
       if (look.by === "value") {
         const value0 = shorts[s + VALUE_SHORT] / 65_535;
         const value1 = shorts[s + VALUE_SHORT + 1] / 65_535;
@@ -186,6 +192,10 @@ const lookOf = (frame: Frame, style: PieceStyle): Look => {
 class Brush {
   reach = 1;
   alpha = 1;
+  /** Begins without a round end. */
+  isFlush = false;
+  /** How much of its end is drawn, device px. */
+  beyondPx = Infinity;
   private readonly data: Uint8ClampedArray;
   private readonly width: number;
   private readonly height: number;
@@ -238,6 +248,8 @@ class Brush {
     const near2 = near > 0 ? near * near : -1;
     // Max. half width of the line within a row of pixels.
     const half = Math.abs(uy) > 0.05 ? far / Math.abs(uy) : Infinity;
+    const first = this.isFlush ? 0 : -Infinity;
+    const last = length + this.beyondPx;
     for (let y = top; y <= bottom; y++) {
       const dy = y + 0.5 - ay;
       let from = left;
@@ -250,6 +262,7 @@ class Brush {
       for (let x = from; x <= to; x++) {
         const dx = x + 0.5 - ax;
         const along = dx * ux + dy * uy;
+        if (along < first || along > last) continue;
         const beyond = along < 0 ? along : along > length ? along - length : 0;
         const side = dy * ux - dx * uy;
         const d2 = beyond * beyond + side * side;

@@ -53,6 +53,48 @@ const longLine = (() => {
   return { sent, untilS, penX: stateAt(trajectory, untilS).x };
 })();
 
+/** A straight line and a circle, both slow at their ends: there they have the most pieces. */
+const LINE_AND_CIRCLE: readonly (readonly [string, readonly (readonly [number, number])[]])[] = [
+  [
+    "a straight line",
+    [
+      [5, 10.1],
+      [85, 10.3],
+    ],
+  ],
+  [
+    "a circle",
+    Array.from({ length: 361 }, (_, k) => {
+      const angle = (k * Math.PI) / 180;
+      return [40 + 25 * Math.cos(angle), 40 + 25 * Math.sin(angle)] as const;
+    }),
+  ],
+];
+
+/** The scene of one black stroke, how long it is, and places on it, mm. */
+const strokeOf = (points: readonly (readonly [number, number])[]) => {
+  const strokes: StrokeSet = {
+    xy: Float64Array.from(points.flat()),
+    offsets: Uint32Array.from([0, points.length]),
+    layer: Uint16Array.of(0),
+    layers: [{ id: "a", name: "a", color: null }],
+  };
+  const trajectory = plan(strokes, DEFAULT_MOTION, DEFAULT_PEN);
+  const built = buildScene(trajectory, strokes.layer);
+  const sent = { draw: base64(built.draw.bytes), travel: base64(built.travel.bytes), totalS: built.totalS };
+  let lengthMm = 0;
+  for (let i = 1; i < points.length; i++)
+    lengthMm += Math.hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
+  const { runs, startS, durationS } = trajectory;
+  const run = runs.stroke.indexOf(0);
+  const [from, to] = [startS[runs.firstBlock[run]], runs.firstBlock[run + 1] - 1];
+  const endS = startS[to] + durationS[to];
+  const places = Array.from({ length: 2_000 }, (_, k) =>
+    stateAt(trajectory, from + ((k + 0.5) / 2_000) * (endS - from)),
+  );
+  return { sent, lengthMm, places };
+};
+
 const WHOLE: Frame = {
   view: { scale: 3, offsetX: 0.4, offsetY: -3.3 },
   width: 270,
@@ -131,6 +173,49 @@ describe.each(["gl", "soft"] as const)("the picture by the %s renderer", (name) 
     expect(inkCount(atOnce)).toBeGreaterThan(5_000);
     expect(Buffer.compare(await pixelsOf(name, frame, 97), atOnce)).toBe(0);
   });
+
+  it.each(LINE_AND_CIRCLE)(
+    "has as much ink as %s has paper under it, and no gap in it",
+    async (_what, points) => {
+      const { sent, lengthMm, places } = strokeOf(points);
+      for (const [scale, widthMm] of [
+        [3, 0.4],
+        [4.3, 0.35],
+        [8, 0.7],
+      ]) {
+        const [width, height] = [90 * scale, 70 * scale].map(Math.round) as [number, number];
+        const frame: Frame = {
+          ...WHOLE,
+          view: { scale, offsetX: 0.3, offsetY: 0.6 },
+          width,
+          height,
+          colorBy: "layer",
+          layerColors: ["#000000"],
+          layerWidthsMm: [widthMm],
+        };
+        const pixels = await pixelsOf(name, frame, 1e9, sent);
+        const inkAt = (x: number, y: number): number => 1 - pixels[4 * (y * width + x)] / 255;
+        let ink = 0;
+        for (let y = 0; y < height; y++) for (let x = 0; x < width; x++) ink += inkAt(x, y);
+        const areaPx = lengthMm * scale * widthMm * scale;
+        expect(ink / areaPx).toBeGreaterThan(0.97);
+        expect(ink / areaPx).toBeLessThan(1.04);
+        // Of the pixels around each place on the line, one at least is mostly covered.
+        const palest = Math.min(
+          ...places.map(({ x, y }) => {
+            const [left, top] = [Math.floor(x * scale - 0.2), Math.floor(y * scale + 0.1)];
+            return Math.max(
+              inkAt(left, top),
+              inkAt(left + 1, top),
+              inkAt(left, top + 1),
+              inkAt(left + 1, top + 1),
+            );
+          }),
+        );
+        expect(palest).toBeGreaterThan(0.45);
+      }
+    },
+  );
 
   it("has a long line drawn up to the pen, and pale behind it", async () => {
     const { sent, untilS, penX } = longLine;
