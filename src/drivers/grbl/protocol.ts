@@ -84,13 +84,34 @@ export interface Status {
   readonly machineAt: Axes;
 }
 
-/** Whether the machine comes to rest by itself from this state. */
-export const isMoving = (state: string): boolean => /^(Run|Jog|Home|Hold:1|Door:[23])/.test(state);
+/** Machine coordinates begin at 0 with each start. */
+export const hasRestarted = ({ machineAt }: Status): boolean => machineAt.every((mm) => mm === 0);
 
-/** Somebody has pressed a button of the machine that holds it. */
+/** Whether the machine moves, or will move, without another command. */
+export const isMoving = (state: string): boolean => /^(Run|Jog|Home|Hold:1|Door:[234])/.test(state);
+
+/** Whether a hold would brake it. */
+export const isRunning = (state: string): boolean => /^(Run|Jog)/.test(state);
+
+/** A button of the machine, its door or another program holds it. */
 export const isHeld = (state: string): boolean => /^(Hold|Door)/.test(state);
 
+/** Its door is open, or was and nobody has resumed since. */
+export const isAtDoor = (state: string): boolean => state.startsWith("Door");
+
 export const isLocked = (state: string): boolean => state.startsWith("Alarm");
+
+/** It answers lines, but only checks them. */
+export const isChecking = (state: string): boolean => state === "Check";
+
+/** Another program moves it by hand. */
+export const isJogging = (state: string): boolean => state === "Jog";
+
+/** Its motors are off. */
+export const isSleeping = (state: string): boolean => state === "Sleep";
+
+/** It stands still, and moves only after a reset. */
+export const needsReset = (state: string): boolean => isHeld(state) || isChecking(state) || isSleeping(state);
 
 /** A status report that arrived whole. */
 const REPORT = /^<([^|<>]+)\|[^<>]*>$/;
@@ -139,14 +160,18 @@ const ERRORS: Readonly<Record<number, string>> = {
   3: "Grbl does not know that setting or command",
   4: "a value must not be negative",
   5: "homing is switched off ($22=0)",
+  6: "a step pulse would be too short",
   7: "its stored settings were damaged, and it uses its defaults",
   8: "the machine must be idle for that",
-  9: "the machine is locked after an alarm",
+  9: "the machine is locked after an alarm, or another program moves it by hand",
   10: "soft limits need homing ($22=1)",
   11: "the line is too long",
   12: "a setting asks for more steps a second than it can make",
+  13: "its safety door is open: close it",
+  14: "a line to store is too long",
   15: "the target is outside the machine's travel",
   16: "a manual move is written wrongly",
+  17: "laser mode needs an output with PWM",
   20: "Grbl does not know that command",
   21: "two commands exclude each other",
   22: "no feed rate was set",
@@ -154,13 +179,18 @@ const ERRORS: Readonly<Record<number, string>> = {
   24: "two commands in the line use the axes",
   25: "a word is repeated",
   26: "the command needs an axis",
+  27: "a line number is invalid",
   28: "a value that the command needs is missing",
+  29: "Grbl does not have that coordinate system",
+  30: "machine coordinates need G0 or G1",
   31: "an axis is given that the command does not use",
   32: "an arc has no axis in its plane",
   33: "the target is invalid",
   34: "the radius of an arc does not reach its end",
   35: "an arc has no centre",
   36: "a word is not used by any command",
+  37: "a tool's length can only change along its own axis",
+  38: "the number of a tool is too high",
 };
 
 /** `reply`: "error:20", for example. */
@@ -208,6 +238,42 @@ export const boardRestartedError = (findsHome: boolean): PlotwrightError =>
       `lost: ${homeAgain(findsHome)}.`,
   );
 
+/** Why a plot or a move cannot go on in this state, in which its position is lost; null for another state. */
+export function stateError(state: string, findsHome: boolean): PlotwrightError | null {
+  if (isLocked(state)) return alarm(Number(/\d+/.exec(state)?.[0] ?? 0) || null, findsHome);
+  const why = isSleeping(state)
+    ? "it has gone to sleep, by itself or because another program sent $SLP. Its motors are off"
+    : state === "Home" && "another program has sent it to its switches";
+  if (!why) return null;
+  return new PlotwrightError(
+    "board-error",
+    `The Grbl no longer draws: ${why}. Its position is lost: ${homeAgain(findsHome)}.`,
+  );
+}
+
+/** Another program has begun something that keeps the position. */
+export const otherProgram = (state: string): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    `The Grbl no longer draws: another program ${
+      isChecking(state) ? "has sent $C, so that it only checks its lines" : "moves it by hand"
+    }. The plot was stopped. End that program; when the plot is resumed, it draws again from the last place that is certain.`,
+  );
+
+/** The machine was stopped by its door, or by a hold that is not ours. */
+export const heldError = (state: string): PlotwrightError =>
+  isAtDoor(state) ? doorOpen() : new PlotwrightError("conflict", HELD);
+
+const HELD =
+  "The Grbl was held by a button of the machine or by another program, so the move was stopped. Move again to go on.";
+
+export const doorOpen = (): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    "The Grbl's safety door is open, and nothing moves until it is closed. The pen could not be lifted: a servo has no signal " +
+      "meanwhile, so the pen may rest on the paper. Close the door: the pen is lifted then, and a plot can be resumed where it stopped.",
+  );
+
 /** A lock that only the user may remove, because the Grbl wants to be homed. */
 export const locked = (findsHome: boolean): PlotwrightError =>
   new PlotwrightError(
@@ -233,6 +299,14 @@ export const outOfStep = (): PlotwrightError =>
     "board-error",
     "An answer of the Grbl was lost, damaged or doubled on its way, so a line may not have been drawn. The plot " +
       `was stopped. When it is resumed, it draws again from the last place that is certain. ${CABLE}`,
+  );
+
+/** The Grbl was reset while its pen moved, so that it counts from an unknown height. */
+export const withUnsureHeight = (error: PlotwrightError): PlotwrightError =>
+  new PlotwrightError(
+    error.code,
+    `${error.message} The height of the pen is lost, too: before you resume, turn its Z axis by hand to the height at which ` +
+      "the pen is when it is up.",
   );
 
 /** Added to an error after which the pen could not be lifted. */

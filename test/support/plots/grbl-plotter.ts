@@ -93,11 +93,14 @@ export async function newPlotter(options: VirtualGrblOptions = {}, machine: Mach
 /** A process that plots on a Grbl, which may have been left by another. */
 export async function plotterOn(board: VirtualGrbl, world: ManualClock, machine: MachineProfile = GRBL) {
   const lines: WeakLine[] = [];
+  const line = (): WeakLine => lines[lines.length - 1];
   let isDead = false;
+  let isSilent = false;
   const open = (): Promise<Transport> => {
     if (isDead) return Promise.reject(new PlotwrightError("no-board", "The process is dead."));
     lines.push(new WeakLine(board.transport(), world));
-    return Promise.resolve(lines[lines.length - 1]);
+    line().isMute = isSilent;
+    return Promise.resolve(line());
   };
   const driver = new PlotterConnection({
     device: "a port",
@@ -109,7 +112,10 @@ export async function plotterOn(board: VirtualGrbl, world: ManualClock, machine:
   const begin = async (planner = new LocalPlanner(DRAWING), start: PlotStart = {}, settings = SETTINGS) =>
     world.run(driver.plot(planner, settings, start));
   const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
-  const line = (): WeakLine => lines[lines.length - 1];
+  /** Nothing is heard of the board, also after connecting again. */
+  const setSilent = (silent: boolean): void => {
+    line().isMute = isSilent = silent;
+  };
   /** As kill -9 does: nothing is sent any more. */
   const kill = (): void => {
     isDead = line().isDeaf = line().isMute = true;
@@ -128,7 +134,7 @@ export async function plotterOn(board: VirtualGrbl, world: ManualClock, machine:
     expect(driver.state).toMatchObject({ xMm: expect.closeTo(12, 1), yMm: expect.closeTo(13, 1) });
     expect(driver.state.penUp).toBe(true);
   };
-  return { driver, begin, within, line, kill, mustWork };
+  return { driver, begin, within, line, setSilent, kill, mustWork };
 }
 
 type GrblPlotter = Pick<

@@ -3,8 +3,6 @@ import { PlotwrightError } from "../../../errors.js";
 import { positionFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import { servoTime } from "../../../machines/pen-servo.js";
-import { waitOf } from "../../../plan/pen/pen-times.js";
 import type {
   ConnectOptions,
   ConsoleAnswer,
@@ -19,22 +17,32 @@ import { MoveSignal, moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
 import { grblCommandsOf, MODES, planGrblJob, SYNC, type GrblCommands, type GrblState } from "../grbl-job.js";
 import { findsHome } from "../model/grbl-controller.js";
-import { penLiftOf, waitLine, type PenLift } from "../model/pen-lift.js";
+import { penLiftOf, waitAfter, type PenLift } from "../model/pen-lift.js";
 import { difference, type Axes } from "../model/planner.js";
-import { HOME, isLocked, locked, noSwitches, NOT_LIFTED, servoSignalOf, type Status } from "../protocol.js";
-import { whyRefused } from "../console-lines.js";
+import {
+  doorOpen,
+  hasRestarted,
+  heldError,
+  HOME,
+  isAtDoor,
+  isLocked,
+  isSleeping,
+  locked,
+  needsReset,
+  noSwitches,
+  NOT_LIFTED,
+  type Status,
+} from "../protocol.js";
+import { endLeft } from "./braking.js";
+import { sendTyped } from "./console.js";
 import { homeByMark, homeMark, type GrblMemory } from "./kept-home.js";
 import { GrblPlayback } from "./grbl-playback.js";
+import { leftPen } from "./left-pen.js";
 import { LineStream } from "./line-stream.js";
 import type { GrblSession } from "./session.js";
 
 /** Allowance for the connection, the board and this computer. */
 const STOP_MS = 30;
-/** Share of the pen's travel below its lowest height up to which a height counts as one of the pen's. */
-const BELOW = 0.25;
-/** A share of the pen's travel from which the pen counts as up. */
-const UP = 0.99;
-const WHOLE_PCT = 100;
 
 export class GrblMachine implements Machine {
   readonly homing = { seekHome: (settings: MachineSettings): Promise<boolean> => this.seekHome(settings) };
@@ -62,6 +70,8 @@ export class GrblMachine implements Machine {
   private isHoming = false;
   /** Only the user may unlock it. */
   private isLocked = false;
+  /** It rests at an open door, and the place of the plot is known. */
+  private isStoppedByDoor = false;
   private byHand: LineStream | null = null;
 
   constructor(
@@ -84,7 +94,8 @@ export class GrblMachine implements Machine {
   }
 
   get memory(): GrblMemory {
-    return { home: this.home, penZeroMm: this.penZeroMm };
+    const { home, penZeroMm, foundMidPlot, isStoppedByDoor } = this;
+    return { home, penZeroMm, foundMidPlot: isStoppedByDoor ? foundMidPlot : undefined };
   }
 
   positionMm(profile: MachineProfile): { x: number; y: number } | null {
@@ -97,13 +108,8 @@ export class GrblMachine implements Machine {
   /** Stops motion that was left, reads the Grbl's settings, and lifts the pen if it may be on the paper. */
   async readKeptState(settings: MachineSettings, before: PenBefore | null): Promise<void> {
     const { session } = this;
-    const { state } = await session.status();
-    if (state !== "Idle" && !isLocked(state)) {
-      await session.brake();
-      await session.reset();
-    }
-    const profile = machineOf(settings);
-    this.use(profile);
+    await endLeft(session);
+    const profile = this.use(settings);
     await session.readSettings();
     this.note = session.settings.slowerThan(profile);
     await session.tryCheck();
@@ -112,16 +118,17 @@ export class GrblMachine implements Machine {
     const status = await session.status();
     if (!isLocked(status.state)) this.remember(status, before, profile);
     await this.recovered(status);
+    if (this.isLocked && this.mayUnlock) throw doorOpen();
     if (!this.isLocked) await this.liftLeft(status, settings, before);
   }
 
   async prepareMotors(settings: MachineSettings): Promise<MachineState> {
-    const profile = machineOf(settings);
-    this.use(profile);
+    const profile = this.use(settings);
     penLiftOf(profile);
     // The Grbl locks itself when it is woken, because the carriage may have been pushed. It counts as at home then.
     if (this.isAsleep) await this.recovered(await this.session.reset(), true);
     this.isAsleep = false;
+    await this.mustNotBeHeld();
     if (this.home === null) await this.seekHome(settings);
     await this.mustBeUnlocked();
     const home = this.home ?? (await this.homeIsHere());
@@ -131,19 +138,12 @@ export class GrblMachine implements Machine {
   }
 
   async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
-    const profile = machineOf(settings);
-    const { upPct, downPct, extraLiftMs, extraDropMs } = settings.pen;
+    const { upPct, downPct } = settings.pen;
     const pct = heightPct ?? (up ? upPct : downPct);
-    const lift = this.liftOf(profile);
+    const lift = this.liftOf(machineOf(settings));
     if (this.isAsleep) await this.prepareMotors(settings);
     await this.mustBeUnlocked();
-    const byPct = this.heightPct === null ? WHOLE_PCT : Math.abs(pct - this.heightPct);
-    const { liftPctPerS, dropPctPerS } = lift.servo;
-    const servoS = waitOf(
-      servoTime(lift.servo, byPct, up ? liftPctPerS : dropPctPerS),
-      up ? extraLiftMs : extraDropMs,
-    );
-    const lines = [SYNC, ...lift.lines(up, pct), waitLine(lift.waitS(servoS))];
+    const lines = [SYNC, ...lift.lines(up, pct), waitAfter(lift, this.heightPct, pct, up, settings.pen)];
     this.session.settings.mustPerform(lines, this.session.offset);
     this.penUp = up;
     this.heightPct = pct;
@@ -178,13 +178,13 @@ export class GrblMachine implements Machine {
   }
 
   async perform({ commands }: PlannedPlot, settings: MachineSettings): Promise<void> {
-    const stream = this.stream(grblCommandsOf(commands));
+    const stream = this.stream(grblCommandsOf(commands), (state) => stream.slowDown(heldError(state)));
     this.byHand = stream;
     try {
       await stream.play();
       await this.arrived();
     } catch (error) {
-      await this.recover(stream, settings, false);
+      await this.recover(stream, settings, null);
       throw error instanceof PlotwrightError ? await this.liftAfter(error, settings) : error;
     } finally {
       this.byHand = null;
@@ -277,27 +277,12 @@ export class GrblMachine implements Machine {
   }
 
   private async sendLine(line: string): Promise<ConsoleAnswer> {
-    const why = whyRefused(line);
-    if (why) throw new PlotwrightError("bad-setting", `${JSON.stringify(line)} was not sent: ${why}.`);
-    const { log } = this.session;
-    const entryCount = log.count;
-    let refused = false;
-    await this.session.send(line).catch((error: unknown) => {
-      // An error reply is among the received lines.
-      if (!(error instanceof PlotwrightError && error.code === "board-error")) throw error;
-      refused = true;
-    });
-    const replies = log.receivedSince(entryCount);
-    if (/^\$(\d+=|RST)/i.test(line)) await this.session.readSettings();
-    if (line.startsWith("$") && !/^\$J/i.test(line)) return { replies, refused, note: null };
-    await this.session.send(SYNC).catch(() => undefined);
-    this.penUp = this.heightPct = null;
-    await this.forgetPosition();
-    return {
-      replies,
-      refused,
-      note: "The machine may have moved, so its position is unknown. The next move starts from here as home.",
-    };
+    const answer = await sendTyped(this.session, line);
+    if (answer.note !== null) {
+      this.penUp = this.heightPct = null;
+      await this.forgetPosition();
+    }
+    return answer;
   }
 
   log(): string {
@@ -312,22 +297,26 @@ export class GrblMachine implements Machine {
     return this.session.close();
   }
 
-  stream(commands: GrblCommands): LineStream {
+  stream(
+    commands: GrblCommands,
+    onHeld: (state: string) => void = () => this.options.events.buttonPressed(),
+  ): LineStream {
     this.session.settings.mustPerform(commands.lines, this.session.offset);
     this.motorsOn = true;
     this.penUp = this.heightPct = this.foundMidPlot = null;
-    return new LineStream(this.session, commands, this.clock, () => this.options.events.buttonPressed());
+    return new LineStream(this.session, commands, this.clock, onHeld);
   }
 
-  /**
-   * Call after a play that did not reach its end: Grbl then accepts moves again. `penUp`: the pen was certainly up.
-   */
-  async recover(stream: LineStream, settings: MachineSettings, penUp: boolean): Promise<void> {
+  /** Call after a play that did not reach its end: Grbl then accepts moves again. `penUp`: as it was at the end. */
+  async recover(stream: LineStream, settings: MachineSettings, penUp: boolean | null): Promise<boolean> {
     const status = await stream.cleared();
     if (stream.isBroken) this.home = null;
     await this.recovered(status);
     // Its greeting may have been lost.
-    if (!this.isLocked && hasRestarted(status)) await this.setHeight(penUp, settings);
+    if (this.isLocked || !hasRestarted(status)) return true;
+    // A pen that is up counts as down rather than the reverse: it must not be pushed into the paper.
+    await this.setHeight(penUp === true, settings);
+    return penUp !== null || this.liftOf(machineOf(settings)).kind !== "z";
   }
 
   /** Without homing, a lock has no other purpose than to be acknowledged. */
@@ -341,9 +330,15 @@ export class GrblMachine implements Machine {
     this.machineAt = machineAt;
     this.isLocked = isLocked(state) && !mayUnlock;
     this.options.events.changed();
-    if (this.isLocked) return;
+    // It takes no lines.
+    if (this.isLocked || isAtDoor(state)) return;
+    if (isLocked(state)) {
+      await this.session.attempt("$X");
+      // An open door keeps it locked.
+      this.isLocked = isLocked((await this.session.status()).state);
+      if (this.isLocked) return;
+    }
     // If they are refused, so is the next move.
-    if (isLocked(state)) await this.session.attempt("$X");
     await this.session.attempt(MODES);
     await this.markHome();
   }
@@ -353,16 +348,35 @@ export class GrblMachine implements Machine {
     return this.session.attempt(homeMark(this.penZeroMm === null ? this.home : null, this.session.settings));
   }
 
-  private use(profile: MachineProfile): void {
-    this.profile = profile;
-    this.session.findsHome = findsHome(profile);
+  private use(settings: MachineSettings): MachineProfile {
+    this.profile = machineOf(settings);
+    this.session.findsHome = findsHome(this.profile);
+    return this.profile;
+  }
+
+  /** Ends a hold that is not ours. Throws if the door is open. */
+  private async mustNotBeHeld(): Promise<void> {
+    const { state } = await this.session.status();
+    if (!needsReset(state)) return;
+    if (isSleeping(state)) this.home = null;
+    const left = await this.session.reset();
+    await this.recovered(left);
+    if (isAtDoor(left.state)) throw this.stoppedByDoor();
   }
 
   /** Throws if the Grbl is still locked; the user may have unlocked it meanwhile. */
   private async mustBeUnlocked(): Promise<void> {
+    await this.mustNotBeHeld();
     if (!this.isLocked) return;
     await this.recovered(await this.session.status());
-    if (this.isLocked) throw locked(this.session.findsHome);
+    if (this.isLocked) throw this.mayUnlock ? this.stoppedByDoor() : locked(this.session.findsHome);
+  }
+
+  /** Ends the connection, so that it is made again when the door is closed. */
+  private stoppedByDoor(): PlotwrightError {
+    this.isStoppedByDoor = true;
+    this.session.fail(doorOpen());
+    return doorOpen();
   }
 
   /**
@@ -371,7 +385,6 @@ export class GrblMachine implements Machine {
    */
   private async liftLeft(status: Status, settings: MachineSettings, before: PenBefore | null): Promise<void> {
     const lift = this.liftOf(machineOf(settings));
-    const { upPct, downPct } = settings.pen;
     if (lift.kind === "z" && hasRestarted(status)) {
       // It counts from 0 wherever the pen is, so the pen is lifted by its travel.
       if (!before) return;
@@ -381,20 +394,11 @@ export class GrblMachine implements Machine {
       else await this.movePen(true, settings);
       return;
     }
-    const pct = this.keptHeightPct(lift, status);
-    const share = pct === null ? null : (pct - downPct) / (upPct - downPct);
-    if (this.home) this.foundMidPlot = { penUp: share === null ? before?.penUp === true : share > UP };
-    if (share !== null && share > UP) this.penUp = true;
-    else if (before || (share !== null && (lift.kind === "servo" || share > -BELOW))) {
-      await this.movePen(true, settings);
-    }
-  }
-
-  /** The pen's height that a Grbl still has from before it was connected; null: it has none. */
-  private keptHeightPct(lift: PenLift, { at }: Status): number | null {
-    if (lift.kind === "z") return lift.pctOf(at[2]);
-    const signal = lift.kind === "servo" ? servoSignalOf(this.session.modes) : null;
-    return signal === null ? null : lift.pctOf(signal);
+    const left = leftPen(lift, status.at[2], this.session.modes, settings.pen, before);
+    const { foundMidPlot } = (before?.memory ?? {}) as Partial<GrblMemory>;
+    if (this.home) this.foundMidPlot = foundMidPlot === undefined ? { penUp: left.isUp } : foundMidPlot;
+    if (left.mustLift) await this.movePen(true, settings);
+    else if (left.isUp) this.penUp = true;
   }
 
   /** After a restart: the pen's current height is that of a pen that is up, or down. */
@@ -428,10 +432,9 @@ export class GrblMachine implements Machine {
   /** A Grbl that was not restarted still counts from the same place. */
   private remember(status: Status, before: PenBefore | null, profile: MachineProfile): void {
     const { foundModes, settings } = this.session;
-    const marked = homeByMark(foundModes, status.machineAt, profile, settings);
     const memory = hasRestarted(status) ? null : (before?.memory as GrblMemory | null | undefined);
     this.penZeroMm = memory?.penZeroMm ?? null;
-    this.home = memory?.home ?? marked;
+    this.home = memory?.home ?? homeByMark(foundModes, status.machineAt, profile, settings);
     this.machineAt = status.machineAt;
     this.options.events.changed();
   }
@@ -445,6 +448,3 @@ export class GrblMachine implements Machine {
     return machineAt;
   }
 }
-
-/** Machine coordinates begin at 0 with each start. */
-const hasRestarted = ({ machineAt }: Status): boolean => machineAt.every((mm) => mm === 0);

@@ -15,7 +15,7 @@ import type { MachineSettings, PlannedPlot } from "../../machine-job.js";
 import { PlaybackProgress, type PenMoment, type PlotProgress } from "../../playback-progress.js";
 import { grblCommandsOf, type GrblCommands } from "../grbl-job.js";
 import { findsHome } from "../model/grbl-controller.js";
-import { boardRestartedError } from "../protocol.js";
+import { boardRestartedError, withUnsureHeight } from "../protocol.js";
 import type { LineStream } from "./line-stream.js";
 
 /** A stop farther from the plan than this shows that the Grbl counts from another place, because it has restarted. */
@@ -27,8 +27,11 @@ interface GrblCarriage extends Pick<Machine, "penUp" | "movePen" | "positionMm" 
   stream(commands: GrblCommands): LineStream;
   /** Called after a job has been played to its end. */
   arrived(): Promise<void>;
-  /** Called after a play that did not reach its end. `penUp`: the pen was certainly up at the end. */
-  recover(stream: LineStream, settings: MachineSettings, penUp: boolean): Promise<void>;
+  /**
+   * Called after a play that did not reach its end. `penUp`: the pen at the end; null: unknown. Returns false if the Grbl
+   * no longer knows the height of its pen.
+   */
+  recover(stream: LineStream, settings: MachineSettings, penUp: boolean | null): Promise<boolean>;
   /** Lifts the pen after a fault; returns the error, which also says if that failed. */
   liftAfter(error: PlotwrightError, settings: MachineSettings): Promise<PlotwrightError>;
 }
@@ -49,6 +52,7 @@ export class GrblPlayback implements Playback {
   private requested: PlotwrightError | null = null;
   private isEmergency = false;
   private failure: PlotwrightError | null = null;
+  private isHeightKnown = true;
   /** `receivedPlace` when the last play failed. */
   private receivedAtEnd: StrokePosition | undefined = undefined;
   private readonly strokes: StrokeSet;
@@ -118,7 +122,8 @@ export class GrblPlayback implements Playback {
       // The Grbl may have failed before the stop was requested.
       if (isLost || error !== this.requested) {
         const lost = boardRestartedError(findsHome(machineOf(settings)));
-        throw await machine.liftAfter(error === this.requested ? lost : error, settings);
+        const cause = error === this.requested ? lost : error;
+        throw await machine.liftAfter(this.isHeightKnown ? cause : withUnsureHeight(cause), settings);
       }
       this.stopped = { place: left };
     } finally {
@@ -151,7 +156,8 @@ export class GrblPlayback implements Playback {
     const { machine, progress, strokes } = this;
     const { plot, commands, stream } = current;
     const settings = this.request.settings();
-    await machine.recover(stream, settings, isPenUpThroughout(plot.trajectory, stream.boundsS));
+    this.isHeightKnown = await machine.recover(stream, settings, penBetween(plot.trajectory, stream.boundsS));
+    if (stream.wasMoved) return certainPosition(current) ?? progress.place;
     const at = machine.positionMm(machineOf(settings));
     const { trajectory } = plot;
     const [fromS, toS] = stream.boundsS;
@@ -196,12 +202,15 @@ function awayFromCut(
   return passesOf([from.x, from.y, to.x, to.y], x, y)[0].awayMm;
 }
 
-/** Whether the pen is up, and has come to rest, at all times between the two. */
-function isPenUpThroughout(trajectory: Trajectory, [fromS, toS]: readonly [number, number]): boolean {
-  return !penMovesOf(trajectory).some(
-    ({ up, startS, moveS }, i, all) =>
-      startS <= toS && (all[i + 1]?.startS ?? Infinity) >= fromS && (!up || startS + moveS > fromS),
-  );
+/** Whether the pen is up, at rest, at all times between the two; null if it moves or may have moved. */
+function penBetween(trajectory: Trajectory, [fromS, toS]: readonly [number, number]): boolean | null {
+  let isUp = true;
+  for (const { up, startS, moveS } of penMovesOf(trajectory)) {
+    if (startS > toS) break;
+    if (startS + moveS > fromS) return null;
+    isUp = up;
+  }
+  return isUp;
 }
 
 const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The plot was stopped.");

@@ -12,6 +12,8 @@ import type { BoardSettings } from "./board-settings.js";
 export interface GrblMemory {
   readonly home: Axes | null;
   readonly penZeroMm: number | null;
+  /** What the next connection would find if it was lost in motion; undefined: it was not lost at rest. */
+  readonly foundMidPlot: { readonly penUp: boolean } | null | undefined;
 }
 
 const AT_ZERO = 73;

@@ -5,7 +5,8 @@
 import { PlotwrightError } from "../../../errors.js";
 import type { Clock } from "../../transport.js";
 import { SYNC, type GrblCommands } from "../grbl-job.js";
-import { CHECK, type Status } from "../protocol.js";
+import { CHECK, isChecking, isHeld, isJogging, otherProgram, type Status } from "../protocol.js";
+import { brake } from "./braking.js";
 import type { GrblSession } from "./session.js";
 
 export class LineStream {
@@ -16,6 +17,8 @@ export class LineStream {
   private checkDue = 0;
   /** The last time up to which everything is certainly done, seconds along the plan. */
   private certainS: number;
+  /** The same at the last report of a state in which it draws: a Grbl that only checks lines answers them, too. */
+  private provenS: number;
   /** Seconds along the plan from which lines may not have been executed; null: all were, as far as they are answered. */
   missedS: number | null = null;
   /** The line that Grbl refused; -1: none. */
@@ -24,6 +27,8 @@ export class LineStream {
   isOver = false;
   /** Grbl restarted or stopped by itself, so its position is lost. */
   isBroken = false;
+  /** Another program has moved the carriage, so that its place says nothing about the plan. */
+  wasMoved = false;
   private isSettled = false;
   /** `receivedS` when the connection was lost, after which nothing can be stopped. */
   private receivedAtLossS: number | null | undefined = undefined;
@@ -39,10 +44,10 @@ export class LineStream {
     private readonly commands: GrblCommands,
     /** Counts the machine's seconds. */
     private readonly clock: Clock,
-    /** A button of the machine holds it. */
-    private readonly onHeld: () => void,
+    /** A button of the machine, its door or another program holds it. */
+    private readonly onHeld: (state: string) => void,
   ) {
-    this.certainS = commands.planS[0];
+    this.certainS = this.provenS = commands.planS[0];
     this.known = { planS: this.certainS, clockS: clock.nowS() };
   }
 
@@ -69,9 +74,7 @@ export class LineStream {
           this.settle(error);
         },
         outOfStep: (error) => this.miss(this.certainS, error),
-        held: () => {
-          if (!this.isOver) this.onHeld();
-        },
+        reported: (state) => this.reported(state),
       };
       this.feed();
     });
@@ -126,8 +129,7 @@ export class LineStream {
     this.isOver = true;
     this.stopS = this.clock.nowS();
     // Without an answer, clearing the queue fails too.
-    void this.session
-      .brake()
+    void brake(this.session)
       .catch(() => undefined)
       .then(() => this.stop(error));
   }
@@ -152,6 +154,18 @@ export class LineStream {
     this.stopS ??= this.clock.nowS();
     this.clearing ??= this.session.reset();
     return this.clearing;
+  }
+
+  private reported(state: string): void {
+    if (isChecking(state)) {
+      this.certainS = this.missedS = this.provenS;
+      return this.slowDown(otherProgram(state));
+    }
+    this.provenS = this.certainS;
+    if (isJogging(state)) {
+      this.wasMoved = true;
+      this.miss(this.certainS, otherProgram(state));
+    } else if (isHeld(state) && !this.isOver) this.onHeld(state);
   }
 
   private get takenS(): number {
@@ -204,8 +218,17 @@ export class LineStream {
       this.known = { planS: this.certainS, clockS: this.clock.nowS() };
     }
     if (this.isOver) return;
-    if (end === count) this.settle(null);
+    if (end === count) this.finish();
     else this.feed();
+  }
+
+  /** Its last report shows whether it has drawn. */
+  private finish(): void {
+    const finished = (): void => {
+      if (!this.isOver) this.settle(null);
+    };
+    // Without an answer the connection is lost, which settles it.
+    this.session.status().then(finished, () => undefined);
   }
 
   /** Lines from `planS` on may not have been executed. */

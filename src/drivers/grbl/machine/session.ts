@@ -18,11 +18,11 @@ import {
   alarm,
   buffersOf,
   CHECK,
+  heldError,
   HOME,
   INFO,
   isGreeting,
   isHeld,
-  isLocked,
   isMoving,
   isOldVersion,
   isReport,
@@ -34,12 +34,14 @@ import {
   refusal,
   boardRestartedError,
   RX_BYTES,
+  stateError,
   statusOf,
   unanswered,
   versionAfter,
   type Status,
 } from "../protocol.js";
 import { BoardSettings } from "./board-settings.js";
+import { isSamePlace } from "./braking.js";
 import { SentLines, type Settle } from "./sent-lines.js";
 
 /** What a job that is being played learns from the session. */
@@ -50,8 +52,8 @@ export interface PlayListener {
   lost(error: PlotwrightError): void;
   /** Answers do not fit the lines, so it is unknown which lines were refused. */
   outOfStep(error: PlotwrightError): void;
-  /** A button of the machine holds it. */
-  held(): void;
+  /** The board has reported its state, which may be one in which it does not draw. */
+  reported(state: string): void;
 }
 
 /** Silence after which the board counts as gone, s; its status is polled meanwhile. */
@@ -59,9 +61,7 @@ const PATIENCE_S = 3;
 /** The same for a machine that says it runs, but whose position does not change: it may be very slow. */
 const SLOW_S = 30;
 const REFUSED_TRIES = 10;
-const REST_TRIES = 200;
 const OFFSET_TRIES = 35;
-const REST_POLL_S = 0.05;
 const POLL_S = 0.2;
 /** Reported by a reset during motion, or in a search for switches. */
 const RESET_ALARMS: readonly (number | null)[] = [3, 6];
@@ -72,7 +72,7 @@ const IDENTIFY_S = 1;
 const FINISH_S = 60;
 /** The longest search for switches, s. */
 const HOMING_S = 180;
-/** Time for braking. */
+/** Time for braking, and for the greeting after a reset. */
 const HOLD_S = 0.5;
 
 export class GrblSession implements LineProtocol {
@@ -90,6 +90,8 @@ export class GrblSession implements LineProtocol {
   /** The latest report of the parser's modes, and the first one, from before any reset of ours; "": none has come. */
   modes = "";
   foundModes = "";
+  /** Resets that were sent. */
+  resetCount = 0;
 
   private buffers = { queueMoves: QUEUE_MOVES, rxBytes: RX_BYTES };
   private readonly sent = new SentLines();
@@ -97,6 +99,8 @@ export class GrblSession implements LineProtocol {
   private reportedOffset: Axes | null = null;
   private statusWaiters: ((status: Status) => void)[] = [];
   private greetingWaiters: (() => void)[] = [];
+  /** The board was reset in motion, but not by us: its greeting follows the alarm that says so. */
+  private isGreetingDue = false;
   private failures: ((error: PlotwrightError) => void)[] = [];
   private readonly lines: LineSession;
   private isIdentified = false;
@@ -109,7 +113,7 @@ export class GrblSession implements LineProtocol {
 
   constructor(
     transport: Transport,
-    private readonly clock: Clock,
+    readonly clock: Clock,
   ) {
     this.missing = new SilenceWatch(clock, () => this.answerMissing());
     this.lines = new LineSession(transport, this, { clock });
@@ -122,6 +126,11 @@ export class GrblSession implements LineProtocol {
   /** Why the session can no longer be used; null while it is usable. */
   get failure(): PlotwrightError | null {
     return this.lines.failure;
+  }
+
+  /** Ends the session because of an error. */
+  fail(error: PlotwrightError): void {
+    this.lines.fail(error);
   }
 
   /** Called once, when the connection or the board is lost. */
@@ -252,20 +261,6 @@ export class GrblSession implements LineProtocol {
     this.canCheck = this.log.receivedSince(entryCount).some((line) => line.startsWith(MODES_REPORT));
   }
 
-  /** Brakes along the path. Resolves at rest, or when it has waited long enough. */
-  async brake(): Promise<void> {
-    this.now(NOW.hold);
-    let before: Status | null = null;
-    for (let i = 0; i < REST_TRIES && !this.resetting; i++) {
-      const status = await this.status();
-      // Version 0.9 does not say whether it still brakes.
-      const stands = status.state !== "Hold" || (before !== null && isSamePlace(before, status));
-      if (stands && !isMoving(status.state)) return;
-      before = status;
-      await delay(this.clock, REST_POLL_S);
-    }
-  }
-
   /** Sends a real-time command. */
   now(byte: string): void {
     if (byte !== NOW.status) this.log.add("sent", byte === NOW.reset ? "(reset)" : byte);
@@ -295,6 +290,9 @@ export class GrblSession implements LineProtocol {
 
   private async resetOnce(): Promise<Status> {
     this.isLockOurs = false;
+    this.resetCount++;
+    if (this.isGreetingDue) await delay(this.clock, HOLD_S);
+    this.isGreetingDue = false;
     const greeted = this.within<void>("a reset", (resolve) => this.greetingWaiters.push(resolve));
     this.now(NOW.reset);
     await greeted;
@@ -333,7 +331,6 @@ export class GrblSession implements LineProtocol {
     this.takeVersion(versionAfter(line, this.version));
     this.buffers = buffersOf(line) ?? this.buffers;
     this.settings.take(line);
-    // Version 0.9 writes words instead of a number.
     const alarmed = /^ALARM: ?(\d*)/.exec(line);
     if (line === "ok") this.settleFirst(null);
     // Old versions write words instead of a number.
@@ -344,10 +341,13 @@ export class GrblSession implements LineProtocol {
       this.checkReported();
     } else if (alarmed) {
       const code = alarmed[1] === "" ? null : Number(alarmed[1]);
-      const isOurs = RESET_ALARMS.includes(code) || line.includes("Abort during cycle");
-      if (isOurs && this.greetingWaiters.length > 0) this.isLockOurs = true;
-      else this.broken(alarm(code, this.findsHome));
-    } else if (isGreeting(line)) {
+      const isReset = RESET_ALARMS.includes(code) || line.includes("Abort during cycle");
+      const isOurs = isReset && this.greetingWaiters.length > 0;
+      this.isLockOurs ||= isOurs;
+      this.isGreetingDue = isReset && !isOurs;
+      if (!isOurs) this.broken(alarm(code, this.findsHome));
+    } else if (isGreeting(line) && this.isGreetingDue) this.isGreetingDue = false;
+    else if (isGreeting(line)) {
       const waiters = this.greetingWaiters.splice(0);
       if (waiters.length === 0) this.broken(boardRestartedError(this.findsHome));
       for (const waiter of waiters) waiter();
@@ -369,8 +369,9 @@ export class GrblSession implements LineProtocol {
     if (hasMoved || isSlow) this.expectAnswer();
     for (const waiter of this.statusWaiters.splice(0)) waiter(status);
     if (!this.playing || this.resetting) return;
-    if (isLocked(status.state)) this.broken(alarm(null, this.findsHome));
-    else if (isHeld(status.state)) this.playing.held();
+    const error = stateError(status.state, this.findsHome);
+    if (error) this.broken(error);
+    else this.playing.reported(status.state);
   }
 
   private settleFirst(errorReply: string | null): void {
@@ -401,7 +402,8 @@ export class GrblSession implements LineProtocol {
   private answerMissing(): void {
     const first = this.sent.first;
     if (!first || this.resetting || !this.isIdentified) return;
-    const error = unanswered(first.line, this.lastStatus?.state ?? "silent");
+    const state = this.lastStatus?.state ?? "silent";
+    const error = isHeld(state) ? heldError(state) : unanswered(first.line, state);
     if (this.playing) this.playing.outOfStep(error);
     else this.lines.fail(error);
   }
@@ -442,7 +444,5 @@ export class GrblSession implements LineProtocol {
     for (const failed of this.failures.splice(0)) failed(error);
   }
 }
-
-const isSamePlace = (a: Status, b: Status): boolean => a.at.every((mm, axis) => mm === b.at[axis]);
 
 const stopped = (): PlotwrightError => new PlotwrightError("conflict", "The machine was stopped.");

@@ -3,9 +3,10 @@
  * profile. Grbl knows nothing of a servo's travel, so it is told to wait (G4).
  */
 import { PlotwrightError } from "../../../errors.js";
-import { HOBBY_SERVO } from "../../../machines/pen-servo.js";
+import { HOBBY_SERVO, servoTime } from "../../../machines/pen-servo.js";
 import type { Controller, MachineProfile, PenServo } from "../../../machines/profile.js";
-import { PEN_TABLE } from "../../../settings/pen.js";
+import { waitOf } from "../../../plan/pen/pen-times.js";
+import { PEN_TABLE, type PenSettings } from "../../../settings/pen.js";
 import type { ControllerChoice } from "../../driver.js";
 import { whyRefused } from "../console-lines.js";
 import { dwellS, grblOf, type GrblController } from "./grbl-controller.js";
@@ -28,6 +29,7 @@ export interface PenLift {
 
 const UP_PCT = PEN_TABLE.upPct.default;
 const DOWN_PCT = PEN_TABLE.downPct.default;
+const WHOLE_PCT = 100;
 /** Grbl itself knows when the pen has arrived, or the profile's wait says it. */
 const AT_ONCE: PenServo = {
   minMs: 0,
@@ -166,3 +168,17 @@ export const number = (value: number): string => String(Number(value.toFixed(3))
 
 /** A line that waits; its reply comes when the wait is over. */
 export const waitLine = (seconds: number): string => `G4P${number(dwellS(seconds))}`;
+
+/** The wait after a pen move outside a plot. `fromPct`: null if unknown. */
+export function waitAfter(
+  lift: PenLift,
+  fromPct: number | null,
+  toPct: number,
+  up: boolean,
+  pen: PenSettings,
+): string {
+  const byPct = fromPct === null ? WHOLE_PCT : Math.abs(toPct - fromPct);
+  const { liftPctPerS, dropPctPerS } = lift.servo;
+  const [pctPerS, extraMs] = up ? [liftPctPerS, pen.extraLiftMs] : [dropPctPerS, pen.extraDropMs];
+  return waitLine(lift.waitS(waitOf(servoTime(lift.servo, byPct, pctPerS), extraMs)));
+}

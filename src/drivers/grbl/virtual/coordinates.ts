@@ -28,6 +28,12 @@ export class Coordinates {
     this.origin = [-x, -y, this.origin[2]];
   }
 
+  /** The pen's axis was turned to a real height. */
+  pushedPen([, , z]: Axes, zMm: number): void {
+    const [x, y] = this.origin;
+    this.origin = [x, y, zMm - z];
+  }
+
   /** It stands at its switches, where the carriage stood at the first start. */
   foundSwitches(): void {
     this.origin = [PULL_OFF_MM, PULL_OFF_MM, 0];

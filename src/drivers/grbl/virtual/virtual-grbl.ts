@@ -139,6 +139,13 @@ export class VirtualGrbl implements VirtualMachine {
     this.ink.begin(false);
   }
 
+  /** As if its Z axis was turned by hand. */
+  pushPen(zMm: number): void {
+    this.catchUp();
+    this.coordinates.pushedPen(this.motion.at, zMm);
+    this.ink.begin(this.isPenDown);
+  }
+
   /** An alarm, such as 1 for a limit switch: it stops, and answers nothing until it is reset. */
   stopWith(alarm: number): void {
     this.catchUp();
@@ -250,12 +257,8 @@ export class VirtualGrbl implements VirtualMachine {
   private schedule(): void {
     this.cancelTimer();
     if (this.isClosed) return;
-    const dueS = Math.min(
-      this.motion.nextS,
-      this.wait.nextS,
-      this.states.door.nextS,
-      this.startDueS ?? Infinity,
-    );
+    const waitS = Math.min(this.wait.nextS, this.states.door.nextS);
+    const dueS = Math.min(this.motion.nextS, waitS, this.startDueS ?? Infinity);
     if (dueS === Infinity) return;
     const delayS = Math.max(0, dueS - this.nowS) / this.options.speed;
     this.cancelTimer = this.options.clock.after(delayS, () => {

@@ -104,4 +104,7 @@ export class Ink {
 
 /** The lines as a Grbl reads them. */
 const read = (lines: string | null | undefined): string[] =>
-  (lines ?? "").split("\n").map((line) => line.replace(/\s|\(.*?\)|;.*/g, "").toUpperCase());
+  (lines ?? "")
+    .split("\n")
+    .map((line) => line.replace(/\s|\(.*?\)|;.*/g, "").toUpperCase())
+    .filter((line) => line !== "");
