@@ -46,13 +46,13 @@ export class Coordinates {
     this.offset = [set(0, "X"), set(1, "Y"), set(2, "Z")];
   }
 
-  /** The end of a move, in machine coordinates. `from`: where it begins. */
+  /** The end of a move as written, in machine coordinates. `from`: where it begins. */
   target(words: ReadonlyMap<string, number>, from: Axes): Axes {
     const along = (letter: string, axis: 0 | 1 | 2): number => {
       const word = words.get(letter);
       return word === undefined ? from[axis] : word + this.offset[axis];
     };
-    return this.onSteps([along("X", 0), along("Y", 1), along("Z", 2)]);
+    return [along("X", 0), along("Y", 1), along("Z", 2)];
   }
 
   /** X and Y are rounded to whole steps. */

@@ -36,6 +36,8 @@ export interface Face {
   readonly reportsHoming: boolean;
   /** The number of the state in which it resumes after its door was open. */
   readonly doorResuming: number;
+  /** It knows G2 and G3. */
+  readonly takesArcs: boolean;
 }
 
 const ARDUINO: Face = {
@@ -51,6 +53,7 @@ const ARDUINO: Face = {
   refusesOn: false,
   reportsHoming: false,
   doorResuming: 3,
+  takesArcs: true,
 };
 
 const OLD_ERRORS: Readonly<Record<number, string>> = { 9: "Alarm lock", 20: "Unsupported command" };
@@ -107,6 +110,7 @@ const TABLE: Readonly<Record<FaceName, Face>> = {
   DrawCore: {
     ...ARDUINO,
     greeting: "Grbl 1.1h DrawCore V2.09 ['$' for help]",
+    takesArcs: false,
     report: ({ state, workAt, free, feed, offset }) =>
       `<${state}|WPos:${workAt}|Bf:${free}|FS:${feed},0${offset === null ? "" : `|WCO:${offset}`}>`,
   },

@@ -3,6 +3,7 @@ import { dwellS } from "../model/grbl-controller.js";
 import type { Coordinates } from "./coordinates.js";
 import { ERROR, wordsOf, type Modes } from "./gcode-words.js";
 import type { GrblMotion } from "./motion.js";
+import { VirtualMoves } from "./moves.js";
 import type { VirtualSettings } from "./virtual-settings.js";
 
 export interface GcodeTarget {
@@ -22,7 +23,16 @@ export interface GcodeTarget {
 }
 
 export class GcodeLines {
-  constructor(private readonly board: GcodeTarget) {}
+  private readonly moves: VirtualMoves;
+
+  constructor(private readonly board: GcodeTarget) {
+    this.moves = new VirtualMoves(board);
+  }
+
+  /** A reset. */
+  forget(): void {
+    this.moves.forget();
+  }
 
   /** Returns 0 if the line is done or queued, an error code if it is refused, null if it has to wait. */
   perform(line: string): number | null {
@@ -40,7 +50,7 @@ export class GcodeLines {
     }
     if (modes.includes("G4")) return this.dwell(modes, words);
     if (modes.includes("G10")) return this.setOffset(words);
-    return this.move(modes, words);
+    return this.moves.take(modes, words);
   }
 
   /** A move in the same line, whose line end was lost, comes after the wait. */
@@ -52,8 +62,8 @@ export class GcodeLines {
     motion.mayRest();
     const rest = new Map(words);
     rest.delete("P");
-    if (seconds <= 0) return this.move(modes, rest);
-    this.board.wait(dwellS(seconds), () => void this.move(modes, rest));
+    if (seconds <= 0) return this.moves.take(modes, rest);
+    this.board.wait(dwellS(seconds), () => this.moves.takeAtOnce(modes, rest));
     return null;
   }
 
@@ -63,25 +73,6 @@ export class GcodeLines {
     if (!motion.isEmpty) return null;
     coordinates.setOffset(words, motion.at);
     this.board.offsetChanged();
-    return 0;
-  }
-
-  private move(modes: readonly string[], words: ReadonlyMap<string, number>): number | null {
-    const { motion, coordinates, settings, modes: lasting } = this.board;
-    const isMove = words.has("X") || words.has("Y") || words.has("Z");
-    if (isMove && motion.isFull) return null;
-    if (!lasting.takeMotion(modes, words, isMove)) return ERROR.noFeed;
-    const { isRapid, feed } = lasting;
-    if (!isMove) return words.size > (words.has("F") ? 1 : 0) ? ERROR.unused : 0;
-    const { end } = motion;
-    const to = coordinates.target(words, end);
-    if (settings.isBeyond(to)) {
-      // It comes to rest first; here at once.
-      this.board.softLimit();
-      return null;
-    }
-    if (to.every((value, i) => value === end[i])) return 0;
-    motion.queue(to, isRapid ? Infinity : feed / 60);
     return 0;
   }
 }

@@ -13,13 +13,27 @@ export const ERROR = {
   sameGroup: 21,
   noFeed: 22,
   repeated: 25,
+  noAxis: 26,
   noWait: 28,
+  noPlaneAxis: 32,
+  badTarget: 33,
+  badRadius: 34,
+  noCentre: 35,
   unused: 36,
 } as const;
 
 const WORDS = /([A-Z])([-+]?\d*\.?\d+)/g;
 /** Supported modes, by group. G4 and G10 are in a group of their own. */
-const GROUPS = [["G0", "G1"], ["G21"], ["G54"], ["G90"], ["G94"], ["G4", "G10"], ["M3", "M4", "M5"]];
+const GROUPS = [
+  ["G0", "G1", "G2", "G3"],
+  ["G17"],
+  ["G21"],
+  ["G54"],
+  ["G90"],
+  ["G94"],
+  ["G4", "G10"],
+  ["M3", "M4", "M5"],
+];
 
 export interface GcodeWords {
   /** "G1", "M3" … */
@@ -47,7 +61,7 @@ export function wordsOf(line: string): GcodeWords | number {
 
 /** What one line sets for those after it. A reset sets it back. */
 export class Modes {
-  isRapid = true;
+  motion = "G0";
   /** mm/min. */
   feed = 0;
   /** "M5": its output is off. */
@@ -62,8 +76,7 @@ export class Modes {
 
   /** As `$G` reports them. */
   get words(): string {
-    const motion = this.isRapid ? "G0" : "G1";
-    return `${motion} G54 G17 G21 G90 G94 ${this.spindle} M9 T${this.tool} F${this.feed} S${this.speed}`;
+    return `${this.motion} G54 G17 G21 G90 G94 ${this.spindle} M9 T${this.tool} F${this.feed} S${this.speed}`;
   }
 
   /** Takes M3, M5 and S out of a line. Whether the signal changes; null if it does and may not yet. */
@@ -83,18 +96,13 @@ export class Modes {
     words.delete("T");
   }
 
-  /** False for a move whose feed is missing. */
-  takeMotion(modes: readonly string[], words: ReadonlyMap<string, number>, isMove: boolean): boolean {
-    if (modes.includes("G0")) this.isRapid = true;
-    if (modes.includes("G1")) this.isRapid = false;
-    const feed = words.get("F") ?? this.feed;
-    if (isMove && !this.isRapid && feed === 0) return false;
-    this.feed = feed;
-    return true;
+  /** The motion of a line: its own, or the lasting one. */
+  motionOf(modes: readonly string[]): string {
+    return modes.find((mode) => /^G[0-3]$/.test(mode)) ?? this.motion;
   }
 
   reset(): void {
-    this.isRapid = true;
+    this.motion = "G0";
     this.feed = this.speed = this.tool = 0;
     this.spindle = "M5";
   }

@@ -405,6 +405,7 @@ export class VirtualGrbl implements VirtualMachine {
 
   private begin(): void {
     this.motion.stop();
+    this.gcode.forget();
     this.rx.clear();
     this.refusal = 0;
     this.states.begin();

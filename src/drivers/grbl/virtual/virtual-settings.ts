@@ -1,5 +1,6 @@
 /** What differs from one virtual Grbl to another: its own settings, its receive buffer, faults; and what a test sees of it. */
 import type { MachineProfile } from "../../../machines/profile.js";
+import { ARC_TOLERANCE_MM } from "../model/arc-cut.js";
 import { axisLimits, grblOf } from "../model/grbl-controller.js";
 import { difference, type Axes, type GrblAxisLimits } from "../model/planner.js";
 import { ERROR } from "./gcode-words.js";
@@ -69,6 +70,7 @@ export class VirtualSettings {
       1: 25,
       10: 3,
       11: junctionMm,
+      12: ARC_TOLERANCE_MM,
       13: 0,
       20: 0,
       22: 0,
@@ -101,6 +103,10 @@ export class VirtualSettings {
       accel: this.axes(120),
       junctionMm: this.value(11),
     };
+  }
+
+  get arcToleranceMm(): number {
+    return this.value(12);
   }
 
   get hasHoming(): boolean {
