@@ -8,7 +8,7 @@ import { declaredValue } from "./css/style.js";
 import { elementTransform } from "./css/transform.js";
 import { withStyle, type Context } from "./svg-context.js";
 import type { SvgFile } from "./svg-file.js";
-import type { SvgPainter } from "./svg-painter.js";
+import type { TextPainter } from "./text/text-painter.js";
 import { attribute, childrenOf, HREF, tagOf, type SvgTree } from "./svg-tree.js";
 import { SHAPE_TAGS, type SvgGeometry } from "./shapes/basic-shapes.js";
 
@@ -23,8 +23,8 @@ export class ElementBoxes {
   constructor(
     private readonly file: SvgFile,
     private readonly geometry: SvgGeometry,
-    /** Lays out text. */
-    private readonly painter: SvgPainter,
+    /** Null: the file has no text. */
+    private readonly texts: TextPainter | null,
     private readonly warnings: Warnings,
   ) {}
 
@@ -48,7 +48,8 @@ export class ElementBoxes {
       if (SHAPE_TAGS.has(tag)) {
         box = uniteBoxes(box, mapBox(inner, curveBox(this.geometry.geometryOf(at, tag, declared, context))));
       } else if (tag === "text") {
-        box = uniteBoxes(box, mapBox(inner, this.painter.textBox(at, withStyle(context, style, IDENTITY))));
+        const own = this.texts?.boxOf(at, withStyle(context, style, IDENTITY)) ?? EMPTY_BOX;
+        box = uniteBoxes(box, mapBox(inner, own));
       } else if (tag === "use") {
         const { target, shift } = copyOf(tree, at, context.basis);
         if (target !== undefined && pending.length < MAX_PENDING) {

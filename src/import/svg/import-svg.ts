@@ -33,7 +33,7 @@ import { SvgWalk } from "./svg-walk.js";
 import type { LengthBasis } from "./css/length.js";
 import { aroundOrigin, parseTransform } from "./css/transform.js";
 import { declaredValue, parseOpacity, INITIAL_STYLE, type Style } from "./css/style.js";
-import type { TextPlacer } from "./text/placed-text.js";
+import type { textPainterOf } from "./text/text-painter.js";
 import { inWords, type ReadDrawing, Warnings } from "../warnings.js";
 
 /** Max error of an arc, as a share of the page's diagonal: 0.3 µm on A4, 1 µm on A1. */
@@ -67,7 +67,7 @@ async function draw(
   warnings: Warnings,
 ): Promise<SizedPage & { readonly builder: DrawingBuilder }> {
   const tree = parseSvgTree(text);
-  const { styles, parseColor, texts, referencedBy } = await neededFor(tree, options);
+  const { styles, parseColor, textPainterOf, referencedBy } = await neededFor(tree);
   const languages = (options.languages ?? ["en"]).map((language) => language.toLowerCase());
   const file = new SvgFile(tree, styles, parseColor, languages);
   const { cascade, layers } = file;
@@ -86,10 +86,11 @@ async function draw(
   const { widthMm, heightMm, pageFrom } = page;
   const pageBox = pageFrom === "extent" ? null : { x0: 0, y0: 0, x1: widthMm, y1: heightMm };
   const servers = new SvgPaintServers(file);
-  const painter = new SvgPainter(file, geometry, texts, servers, builder, warnings, pageBox);
-  const boxes = new ElementBoxes(file, geometry, painter, warnings);
-  const referenced = referencedBy?.(file, geometry, boxes, painter, warnings) ?? null;
-  const walk = new SvgWalk(file, geometry, boxes, referenced, painter, builder, warnings);
+  const painter = new SvgPainter(file, geometry, servers, builder, warnings);
+  const texts = textPainterOf?.(options, painter, pageBox) ?? null;
+  const boxes = new ElementBoxes(file, geometry, texts, warnings);
+  const referenced = referencedBy?.(file, geometry, boxes, texts, warnings) ?? null;
+  const walk = new SvgWalk(file, geometry, boxes, referenced, painter, texts, builder, warnings);
   if (isShown(root)) walk.run(context);
   for (const selector of styles?.slowSelectors ?? [])
     warnings.add("style-slow", undefined, selector.slice(0, 80));
@@ -100,7 +101,7 @@ async function draw(
 interface Needed {
   readonly styles: CssStyles | null;
   readonly parseColor: ColorParser;
-  readonly texts: TextPlacer | null;
+  readonly textPainterOf: typeof textPainterOf | null;
   readonly referencedBy: typeof referencedBy | null;
 }
 
@@ -111,18 +112,17 @@ const REFERENCES = ["clip-path", "mask", "marker-start", "marker-mid", "marker-e
  * Imports what a file needs for its CSS, its colours, its text, and its clips, masks and markers. So a program that uses the
  * library loads these large parts only for a file that has them.
  */
-async function neededFor(tree: SvgTree, options: ImportOptions): Promise<Needed> {
+async function neededFor(tree: SvgTree): Promise<Needed> {
   const has = (name: string): boolean => tree.names.includes(name);
   const hasStyles = has("style");
   const styles = hasStyles ? new (await import("./css/css-styles.js")).CssStyles(tree) : null;
   const parseColor =
     hasStyles || !hasSimplePaints(tree) ? (await import("../css-color.js")).parseCssColor : parseHexColor;
-  const texts = has("text") ? (await import("./text/placed-text.js")).textPlacerOf(options) : null;
   const refers = hasStyles || REFERENCES.some(has);
   return {
     styles,
     parseColor,
-    texts,
+    textPainterOf: has("text") ? (await import("./text/text-painter.js")).textPainterOf : null,
     referencedBy: refers ? (await import("./referenced.js")).referencedBy : null,
   };
 }

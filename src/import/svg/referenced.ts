@@ -9,7 +9,7 @@ import type { SvgGeometry } from "./shapes/basic-shapes.js";
 import type { ElementBoxes } from "./element-boxes.js";
 import { insideMarker, markerPlaces } from "./shapes/markers.js";
 import type { SvgFile } from "./svg-file.js";
-import type { SvgPainter } from "./svg-painter.js";
+import type { TextPainter } from "./text/text-painter.js";
 
 export interface Referenced {
   readonly clips: SvgClips;
@@ -22,11 +22,11 @@ export function referencedBy(
   file: SvgFile,
   geometry: SvgGeometry,
   boxes: ElementBoxes,
-  painter: SvgPainter,
+  texts: TextPainter | null,
   warnings: Warnings,
 ): Referenced {
   return {
-    clips: new SvgClips(file, geometry, boxes, painter, warnings),
+    clips: new SvgClips(file, geometry, boxes, texts, warnings),
     masks: new SvgMasks(file, boxes),
     markerPlaces,
     insideMarker,

@@ -29,6 +29,7 @@ import type { Referenced } from "./referenced.js";
 import type { ElementBoxes } from "./element-boxes.js";
 import { LayerGroups } from "./svg-layers.js";
 import type { SvgPainter } from "./svg-painter.js";
+import type { TextPainter } from "./text/text-painter.js";
 import {
   attribute,
   HREF,
@@ -99,6 +100,8 @@ export class SvgWalk {
     /** Null: no shape of the file refers to any. */
     private readonly referenced: Referenced | null,
     private readonly painter: SvgPainter,
+    /** Null: the file has no text. */
+    private readonly texts: TextPainter | null,
     private readonly builder: DrawingBuilder,
     private readonly warnings: Warnings,
   ) {
@@ -136,7 +139,8 @@ export class SvgWalk {
     const warnings = new Warnings();
     const builder = new DrawingBuilder(warnings);
     const painter = this.painter.forMask(builder, warnings);
-    const walk = new SvgWalk(file, svgGeometry, boxes, referenced, painter, builder, warnings);
+    const texts = this.texts?.forMask(painter) ?? null;
+    const walk = new SvgWalk(file, svgGeometry, boxes, referenced, painter, texts, builder, warnings);
     walk.push(context, file.tree.firstChildren[element], false, []);
     while (work.left-- > 0 && walk.step());
     if (work.left < 0) return null;
@@ -247,7 +251,7 @@ export class SvgWalk {
     const before = this.builder.shapeCount;
     const coordsBefore = this.builder.coordCount;
     if (tag === "text") {
-      this.painter.drawText(element, context);
+      this.texts?.draw(element, context);
       if (this.builder.shapeCount > before) this.textCount++;
     } else {
       this.painter.drawShape(element, tag, declared, context);

@@ -18,7 +18,7 @@ import { elementTransform } from "../css/transform.js";
 import { ShapeBuffer } from "../../shape-buffer.js";
 import { withStyle, type Context, contentKey } from "../svg-context.js";
 import type { SvgFile } from "../svg-file.js";
-import type { SvgPainter } from "../svg-painter.js";
+import type { TextPainter } from "../text/text-painter.js";
 import { attribute, childrenOf, tagOf } from "../svg-tree.js";
 import { declaredValue, parseUrl } from "../css/style.js";
 import type { Warnings } from "../../warnings.js";
@@ -46,8 +46,8 @@ export class SvgClips {
     private readonly file: SvgFile,
     private readonly geometry: SvgGeometry,
     private readonly boxes: ElementBoxes,
-    /** Lays out text. */
-    private readonly painter: SvgPainter,
+    /** Null: the file has no text. */
+    private readonly texts: TextPainter | null,
     private readonly warnings: Warnings,
   ) {}
 
@@ -177,7 +177,7 @@ export class SvgClips {
   }
 
   private addText(child: number, context: Context, collector: ClipCollector): void {
-    const hasOutlines = this.painter.outlinesOf(child, context, (shape, map) => {
+    const hasOutlines = this.texts?.outlinesOf(child, context, (shape, map) => {
       collector.add(shape, map, false, context.clip);
     });
     if (!hasOutlines) this.warnings.add("clip-text");
