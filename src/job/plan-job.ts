@@ -28,7 +28,7 @@ export interface JobOptions extends DriverPlanOptions {
 
 /**
  * Plans `strokes` for a machine, from any position in the drawing to any stroke. Settings that are left out have their
- * defaults: `{ motion: { draw: { speedMmPerS: 40 } } }`. The pens of the layers only matter for `lines` of a Grbl.
+ * defaults: `{ motion: { draw: { speedMmPerS: 40 } } }`. The pens of the layers only matter for `lines`.
  *
  * @throws PlotwrightError "bad-setting" for contradictory settings, an invalid firmware version or an incomplete
  *   machine profile; "cancelled"
