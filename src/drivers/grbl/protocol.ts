@@ -216,6 +216,7 @@ const ALARMS: Readonly<Record<number, string>> = {
     "take that axis out of its homing cycle",
   10: "its emergency stop was pressed, or a switch was not found",
   11: "it must be homed first",
+  12: "a limit switch is touched already: move the carriage off it",
   14: "it must be homed first",
 };
 

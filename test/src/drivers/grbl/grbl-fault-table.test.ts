@@ -169,7 +169,7 @@ const CODES: Readonly<Record<string, Row>> = Object.fromEntries([
     const row = unsure(({ board }) => board.spoil("refused"), ends);
     return [`it refuses a line with error:${code}`, { ...row, options: { refusal: code } }];
   }),
-  ...[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14].map((code) => [
+  ...[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14].map((code) => [
     `it stops with ALARM:${code}`,
     lost(
       ({ board }) => board.stopWith(code),
@@ -243,6 +243,17 @@ describe.each(MACHINES)("a plot with %s", { timeout: 60_000 }, (_, machine) => {
     it.each(Object.entries({ ...HOLDS, ...OTHERS, ...LINES }))("%s", async (name, row) => {
       expect(await wrongOnes(name, row, face, machine, cases(12, 2))).toEqual([]);
     });
+  });
+});
+
+// The others say nothing while they seek their switches.
+describe.each<FaceName>(["grblHAL", "FluidNC"])("a plot on a %s", { timeout: 60_000 }, (face) => {
+  it("another program homes it", async () => {
+    const row = lost(
+      ({ board }) => board.takeFromOther("$H"),
+      /The Grbl no longer draws: another program has sent it to its switches\. Its position is lost/,
+    );
+    expect(await wrongOnes("homed", row, face, GRBL, cases(12, 2))).toEqual([]);
   });
 });
 

@@ -1,5 +1,6 @@
 /** The virtual Grbl's door, holds and other programs, as Grbl's own reference describes them. */
 import { describe, expect, it } from "vitest";
+import { bench } from "../../../../../src/drivers/grbl/virtual/bench.js";
 import type { FaceName } from "../../../../../src/drivers/grbl/virtual/faces.js";
 import { VirtualGrbl } from "../../../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { asciiBytes } from "../../../../../src/drivers/line-splitter.js";
@@ -135,4 +136,16 @@ it("characters beyond ASCII, of a comment say, act or are dropped", async () => 
   expect(state()).toBe("Idle");
   await type("(\xc3\x84)\n");
   expect(state()).toBe("Door:0");
+});
+
+it("its door and its buttons can be typed", async () => {
+  const { board, state } = await typedAt();
+  const apply = (name: string, value?: string): boolean => bench.faults[name].apply(board, value);
+  expect(apply("door", "ajar")).toBe(false);
+  expect(state()).toBe("Idle");
+  expect(apply("door", "open")).toBe(true);
+  expect(state()).toBe("Door:1");
+  expect(apply("door", "close")).toBe(true);
+  expect(apply("resume")).toBe(true);
+  expect(state()).toBe("Idle");
 });
