@@ -179,8 +179,12 @@ export class LiveFeed {
     const start = { stroke, alongMm: 0 };
     const nothing = { stroke: stroke + 1, alongMm: 0 };
     const stopped = (): StrokePosition | null => (stream.stopped ? (stream.stopped.place ?? nothing) : null);
-    if (!isPlaying || plan === null) return this.restPlace() ?? FIRST;
-    if (stream.stopped) return stopped() ?? plan.end;
+    if (!isPlaying || plan === null) {
+      const place = this.restPlace() ?? FIRST;
+      return this.pointsDone(place) < source.pointCount ? place : nothing;
+    }
+    const atEnd = plan.endPoint < source.pointCount ? plan.end : nothing;
+    if (stream.stopped) return stopped() ?? atEnd;
     const first = source.firstPointOf(stroke);
     if (plan.endPoint <= first) return start;
     const ahead = stream.placeAhead(0);
@@ -195,7 +199,7 @@ export class LiveFeed {
       }
     }
     stream.slowToRest();
-    return stopped() ?? plan.end;
+    return stopped() ?? atEnd;
   }
 
   /** Plans again if the current plan does not draw everything that is known. */
@@ -313,7 +317,7 @@ export class LiveFeed {
 
   /** Where the plot goes on: after a stroke that is complete, at the next one. */
   private nextPlace(place: StrokePosition | null): StrokePosition {
-    if (!place || place.alongMm === 0 || this.isOnLine(place)) return place ?? FIRST;
+    if (!place || place.stroke >= this.source.strokeCount || this.isOnLine(place)) return place ?? FIRST;
     return { stroke: place.stroke + 1, alongMm: 0 };
   }
 

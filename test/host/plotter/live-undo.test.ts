@@ -93,6 +93,25 @@ describe("undo in a live drawing", () => {
     expect(board.statistics().penMoveCount).toBe(2);
   });
 
+  it.each([[[]], [[wave(30, 10)]]])(
+    "keeps a dot that is drawn while its stroke may still grow, and draws the next one",
+    async (before) => {
+      const { world, board, source, lines, end } = await drawing();
+      for (const line of before) source.stroke(line);
+      source.lineTo(50, 60);
+      await world.run(source.idle());
+      expect(source.undo()).toEqual({ takenBack: 0, left: 1 });
+      source.lineTo(80, 60);
+      await world.advance(3);
+      expect(board.state()).toMatchObject({ penUp: true });
+      expect(board.state().xMm).toBeCloseTo(80, 1);
+      expect(source.isAllDrawn).toBe(true);
+      expect(lines).toHaveLength(before.length + 2);
+      await end();
+      expect(board.statistics().penMoveCount).toBe(2 * lines.length);
+    },
+  );
+
   it("takes back nothing where nothing is left to draw, and nothing after the end", async () => {
     const { world, source, end } = await drawing();
     expect(source.undo()).toEqual({ takenBack: 0, left: 0 });
