@@ -9,6 +9,7 @@ import {
   type PlotSettings,
   type ServerEvent,
 } from "../../src/schema/index.js";
+import { Waiters } from "../plotter/waiters.js";
 import { endedOtherwise, LiveSender } from "./live-sender.js";
 import { liveSocket, type OpenSocket } from "./live-socket.js";
 import { BaseHandle } from "./base-handle.js";
@@ -59,6 +60,8 @@ interface Followed {
   readonly plot: CurrentPlot;
   readonly resolve: (job: Job) => void;
   readonly reject: (error: Error) => void;
+  /** Wait for a state of the job. */
+  readonly waiters: Waiters;
 }
 
 class ServerHandle extends BaseHandle {
@@ -130,6 +133,10 @@ class ServerHandle extends BaseHandle {
     const { url, key } = this.access;
     const socket = liveSocket(this.openSocket, url, this.plotter.id, key);
     const strokes = await LiveSender.begin(socket, { name, settings, liftAfterMs });
+    if (this.end.signal.aborted) {
+      strokes.close();
+      throw closed();
+    }
     const { id, warnings } = strokes.job;
     const followed = this.followJob(id, plot);
     this.control(id, plot);
@@ -146,21 +153,39 @@ class ServerHandle extends BaseHandle {
   /** Resolves with the job when it is done. */
   private followJob(id: string, plot: CurrentPlot): Promise<Job> {
     const ended = new Promise<Job>((resolve, reject) => {
-      this.followed = { id, plot, resolve, reject };
+      this.followed = { id, plot, resolve, reject, waiters: new Waiters() };
     });
     ended.catch(() => undefined);
     return ended;
   }
 
   private control(id: string, plot: CurrentPlot): void {
+    let before: Promise<void> = Promise.resolve();
+    // A server refuses to resume what is still coming to rest.
+    const inTurn = (action: "pause" | "resume", wanted: JobState): Promise<void> => {
+      const asked = before.then(() => this.askUntil(id, action, wanted));
+      before = asked.catch(() => undefined);
+      return asked;
+    };
     plot.begin({
-      pause: () => this.ask(id, "pause", "paused"),
-      resume: () => this.ask(id, "resume", "plotting"),
+      pause: () => inTurn("pause", "paused"),
+      resume: () => inTurn("resume", "plotting"),
       cancel: () => this.ask(id, "cancel", "cancelled"),
     });
   }
 
+  /** Resolves when the job is as wanted, or has ended. */
+  private async askUntil(id: string, action: "pause" | "resume", wanted: JobState): Promise<void> {
+    await this.ask(id, action, wanted);
+    const { followed } = this;
+    if (followed?.id !== id) return;
+    const isSo = (): boolean =>
+      this.job !== null && (this.job.state === wanted || ENDED_STATES.includes(this.job.state));
+    await followed.waiters.until(isSo);
+  }
+
   protected plotEnded(): void {
+    this.followed?.waiters.end(true);
     this.followed = this.sender = this.job = null;
   }
 
@@ -253,6 +278,7 @@ class ServerHandle extends BaseHandle {
     const { followed, job: before } = this;
     if (followed === null || followed.id !== job.id) return;
     this.job = job;
+    followed.waiters.check();
     const { progress, elapsedS, remainingS, state, wait } = job;
     if (state !== "queued") followed.plot.tellProgress({ progress, elapsedS, remainingS: remainingS ?? 0 });
     if (wait !== null && !isSameJson(wait, before?.wait)) void followed.plot.changePen(wait);

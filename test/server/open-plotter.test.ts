@@ -105,6 +105,22 @@ describe.each(WAYS)("a plotter %s", (_, way) => {
     expect(seen.length).toBe(count);
   });
 
+  it("is resumed right after a pause and paused right after that, waited for or not", async () => {
+    const plot = codeOf(plotter.plot(LONG));
+    await until(() => (plotter.state.plot?.progress ?? 0) > 0.01);
+    for (let i = 0; i < 3; i++) {
+      await plotter.pause();
+      await plotter.resume();
+    }
+    await until(() => plotter.state.activity === "plotting");
+    await Promise.all([plotter.pause(), plotter.resume(), plotter.pause()]);
+    await until(() => plotter.state.activity === "held");
+    await Promise.all([plotter.resume(), plotter.pause(), plotter.resume()]);
+    await until(() => plotter.state.activity === "plotting");
+    await plotter.stop();
+    expect(await plot).toBe("cancelled");
+  });
+
   it("is stopped by a signal, before and during the plot", async () => {
     expect(await codeOf(plotter.plot(ROW, { signal: AbortSignal.abort() }))).toBe("cancelled");
     const stop = new AbortController();

@@ -112,6 +112,13 @@ describe("a live drawing on a server", () => {
       await expect.poll(async () => (await jobs())[0].state).toBe("paused");
       await expect(plotter.live()).rejects.toMatchObject({ code: "disconnected" });
       expect(await jobs()).toHaveLength(1);
+      await post(`/jobs/${(await jobs())[0].id}/cancel`);
+      await expect.poll(async () => (await jobs())[0].state).toBe("cancelled");
+      plotter = await openPlotter({ url: server.url });
+      const begun = plotter.live();
+      await plotter.close();
+      await expect(begun).rejects.toMatchObject({ code: "disconnected" });
+      await expect.poll(async () => (await jobs()).map(({ state }) => state)).toEqual(["done", "cancelled"]);
     },
     LIMIT_MS,
   );
