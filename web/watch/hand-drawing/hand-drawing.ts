@@ -212,11 +212,13 @@ export class HandDrawing implements HandPen {
     }
   }
 
-  private progressed({ drawnTo, lagMs }: LiveProgress): void {
+  private progressed({ drawnTo, lagMs, state }: LiveProgress): void {
     const lagS = lagMs / 1_000;
     this.drawnTo = { stroke: drawnTo.strokeIndex, alongMm: drawnTo.alongMm };
-    const isBehind = lagS > (this.state.isBehind ? BEHIND_S.again : BEHIND_S.most);
-    const isTooFar = this.hand !== null && lagS > STROKE_BEHIND_S;
+    // A pen that the user has stopped is not too slow.
+    const isPaused = state === "paused";
+    const isBehind = !isPaused && lagS > (this.state.isBehind ? BEHIND_S.again : BEHIND_S.most);
+    const isTooFar = !isPaused && this.hand !== null && lagS > STROKE_BEHIND_S;
     if (isTooFar) this.finishStroke();
     this.show({
       lagS,

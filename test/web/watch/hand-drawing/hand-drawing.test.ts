@@ -46,8 +46,8 @@ const fakePlotter = () => {
     got,
     seen,
     sender,
-    drawn: (strokeIndex: number, alongMm: number, lagS: number): void =>
-      report({ type: "progress", drawnTo: { strokeIndex, alongMm }, lagMs: 1_000 * lagS }),
+    drawn: (strokeIndex: number, alongMm: number, lagS: number, state = "drawing"): void =>
+      report({ type: "progress", drawnTo: { strokeIndex, alongMm }, lagMs: 1_000 * lagS, state }),
     end: (job: Job): void => end.resolve(job),
     lose: (error: Error): void => end.reject(error),
   };
@@ -212,6 +212,21 @@ describe("a drawing by hand", () => {
     expect(state()).toMatchObject({ isBehind: false, hasRefused: false });
     stroke(LINE);
     expect(close(plotter.got)).toEqual([LINE, OTHER, LINE]);
+  });
+
+  it("is taken as long as the user likes while the plot is paused", async () => {
+    const { stroke, point, plotter, state } = open();
+    stroke(LINE);
+    await settled();
+    plotter.drawn(0, 10, 60, "paused");
+    expect(state()).toMatchObject({ isBehind: false, lagS: 60 });
+    point("down", ...OTHER[0]);
+    plotter.drawn(0, 10, 61, "paused");
+    point("move", ...OTHER[1]);
+    point("up", ...OTHER[1]);
+    expect(close(plotter.got)).toEqual([LINE, OTHER]);
+    plotter.drawn(0, 11, 62);
+    expect(state().isBehind).toBe(true);
   });
 
   it("ends even a stroke that is being drawn before the pen is too far behind for its memory", async () => {
