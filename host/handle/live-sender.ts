@@ -179,9 +179,9 @@ export class LiveSender {
 
   /** Gives up the connection: the plotter then has lost its sender. */
   close(): void {
-    this.fail(
-      new PlotwrightError("disconnected", "The connection of this live drawing was closed. Its job waits."),
-    );
+    const then = this.isEnded ? "Its job is drawn to the end." : "Its job waits.";
+    const words = `The connection of this live drawing was closed. ${then}`;
+    this.fail(new PlotwrightError("disconnected", words));
     this.link.close();
   }
 
