@@ -1,22 +1,34 @@
 /**
- * Live drawing: how long after `stroke` the first step comes on an idle board, and how much memory a million points take.
- * The virtual board runs in this process; for the million points the time of board and host runs faster.
+ * Live drawing: how long after `stroke` the first step comes on an idle board, and how much memory a million points take:
+ * in a program that has the plotter itself, and in a server. For the million points the time of the virtual board runs
+ * faster.
  */
+import { fork } from "node:child_process";
+import { once } from "node:events";
+import path from "node:path";
+import { Readable } from "node:stream";
+import { setTimeout as delay } from "node:timers/promises";
 import { openOwnPlotter } from "../host/handle/own-plotter.js";
-import type { PlotterHandle } from "../host/handle/plotter-handle.js";
+import { serverClient } from "../host/handle/server-client.js";
+import type { LiveDrawing, PlotterHandle } from "../host/handle/plotter-handle.js";
+import { openPlotter } from "../server/plotter/open-plotter.js";
 import { nodeClock } from "../server/serial/node-clock.js";
 import { VirtualBoard, type Clock, type Transport } from "../src/index.js";
 import { scaledClock } from "../src/internal.js";
+import { temporaryFolder } from "../test/support/processes/folders.js";
+import type { FromServer } from "./live-server.js";
 import type { Report } from "./run.js";
 
 const STROKES = 40;
 const POINTS = 1_000_000;
+const STROKE_POINTS = 5_000;
 const SPEEDUP = 10;
+const SERVER_SPEEDUP = 100;
 /** Commands with steps. */
 const MOTION = /^(LT|LM|SM|XM|T3|L3|TD),/m;
 
 export default async function liveBench(report: Report): Promise<void> {
-  report("Live drawing", [...(await latency()), ...(await memory())]);
+  report("Live drawing", [...(await latency()), ...(await memory()), ...(await serverMemory())]);
 }
 
 /** `wrote`: gets what the host writes to the board. */
@@ -78,22 +90,80 @@ async function memory() {
   let mostHeap = 0;
   let mostArrays = 0;
   const startMs = performance.now();
-  for (let i = 0; i < POINTS; i++) {
-    const [x, y] = [20 + (i % 5_000) / 25, 30 + 0.5 * Math.floor(i / 5_000) + 5 * Math.sin(i / 200)];
-    await live.lineTo(x, y);
-    if (i % 5_000 === 4_999) live.penUp();
-    if (i % 1_000 > 0) continue;
+  await drawPoints(live, () => {
     const { heapUsed, arrayBuffers } = process.memoryUsage();
     mostHeap = Math.max(mostHeap, heapUsed - before.heapUsed);
     mostArrays = Math.max(mostArrays, arrayBuffers - before.arrayBuffers);
-  }
+  });
   await live.end();
   const s = (performance.now() - startMs) / 1_000;
   await plotter.close();
-  const mb = (bytes: number): string => `${(bytes / 1e6).toFixed(0)} MB`;
   return [
     { what: "a million points: most heap", value: mb(mostHeap) },
     { what: "a million points: most in arrays", value: mb(mostArrays) },
     { what: `a million points: time on a board ${SPEEDUP} times as fast`, value: `${s.toFixed(0)} s` },
+  ];
+}
+
+const mb = (bytes: number): string => `${(bytes / 1e6).toFixed(0)} MB`;
+
+const pointOf = (i: number): [x: number, y: number] => [
+  20 + (i % STROKE_POINTS) / 25,
+  30 + 0.5 * Math.floor(i / STROKE_POINTS) + 5 * Math.sin(i / 200),
+];
+
+/** `sample`: called now and then. */
+async function drawPoints(live: LiveDrawing, sample: () => void): Promise<void> {
+  for (let i = 0; i < POINTS; i++) {
+    await live.lineTo(...pointOf(i));
+    if (i % STROKE_POINTS === STROKE_POINTS - 1) live.penUp();
+    if (i % 1_000 === 0) sample();
+  }
+}
+
+function* linesOfPoints(): Generator<string> {
+  for (let i = 0; i < POINTS; i += STROKE_POINTS) {
+    const stroke = Array.from({ length: STROKE_POINTS }, (_, k) => pointOf(i + k).join(" "));
+    yield `${stroke.join("\n")}\nup\n`;
+  }
+}
+
+/** The memory of the whole process of a server. */
+async function serverMemory() {
+  const data = temporaryFolder("bench-live");
+  const child = fork(path.join(import.meta.dirname, "live-server.ts"), [data.path, String(SERVER_SPEEDUP)], {
+    execArgv: ["--import", "tsx"],
+  });
+  const said = async (): Promise<FromServer> => ((await once(child, "message")) as [FromServer])[0];
+  const most = async (): Promise<string> => {
+    child.send("most");
+    const answer = await said();
+    return "mostBytes" in answer ? mb(answer.mostBytes) : "";
+  };
+  const begun = await said();
+  const url = "url" in begun ? begun.url : "";
+  const { state } = serverClient({ url });
+  const plotter = await openPlotter({ url });
+  await delay(1_000);
+  const atRest = await most();
+  const live = await plotter.live({ speed: 80 });
+  await drawPoints(live, () => undefined);
+  await live.end();
+  const bySocket = await most();
+  await plotter.close();
+  while ((await state.get()).jobs[0].stats === null) await delay(100);
+  const measuring = await most();
+  const init = { method: "POST", body: Readable.toWeb(Readable.from(linesOfPoints())), duplex: "half" };
+  const answer = await fetch(`${url}/api/v1/plotters/main/live`, init as RequestInit);
+  if (!answer.ok) throw new Error(await answer.text());
+  const byRequest = await most();
+  child.disconnect();
+  await once(child, "exit");
+  data.remove();
+  return [
+    { what: "a server at rest: its whole memory", value: atRest },
+    { what: "a server that gets a million points over a WebSocket", value: bySocket },
+    { what: "a server that then measures that drawing, as any other job", value: measuring },
+    { what: "a server that gets a million points as the lines of a request", value: byRequest },
   ];
 }
