@@ -15,9 +15,9 @@ import { moveStopped } from "../../faults.js";
 import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-job.js";
 import { MoveSignal, moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
-import { grblCommandsOf, MODES, planGrblJob, SYNC, type GrblCommands, type GrblState } from "../grbl-job.js";
+import { grblCommandsOf, MODES, planGrblJob, type GrblCommands, type GrblState } from "../grbl-job.js";
 import { findsHome } from "../model/grbl-controller.js";
-import { penLiftOf, waitAfter, type PenLift } from "../model/pen-lift.js";
+import { penLiftOf } from "../model/pen-lift.js";
 import { difference, type Axes } from "../model/planner.js";
 import {
   doorOpen,
@@ -39,6 +39,7 @@ import { homeByMark, homeMark, type GrblMemory } from "./kept-home.js";
 import { GrblPlayback } from "./grbl-playback.js";
 import { leftPen } from "./left-pen.js";
 import { LineStream } from "./line-stream.js";
+import { GrblPen } from "./pen.js";
 import type { GrblSession } from "./session.js";
 
 /** Allowance for the connection, the board and this computer. */
@@ -48,20 +49,14 @@ export class GrblMachine implements Machine {
   readonly homing = { seekHome: (settings: MachineSettings): Promise<boolean> => this.seekHome(settings) };
   readonly console = { send: (line: string): Promise<ConsoleAnswer> => this.sendLine(line) };
   stopSignal = new MoveSignal();
-  penUp: boolean | null = null;
-  penMoving = false;
   motorsOn: boolean | null = null;
   /** What the user should know about it, in words; null: nothing. */
   note: string | null = null;
-  /** Where the pen is or goes to, percent; null: unknown. */
-  private heightPct: number | null = null;
   foundMidPlot: { readonly penUp: boolean } | null = null;
   /**
    * Home in machine coordinates, mm; null: unknown. It is kept here and not in the Grbl, whose work offsets are the user's.
    */
   private home: Axes | null = null;
-  /** Where the profile's Z is 0, in machine coordinates; null: where the Grbl's own is. */
-  private penZeroMm: number | null = null;
   /** Where it rested last, in machine coordinates. */
   private machineAt: Axes = [0, 0, 0];
   /** That of the latest settings. */
@@ -73,12 +68,15 @@ export class GrblMachine implements Machine {
   /** It rests at an open door, and the place of the plot is known. */
   private isStoppedByDoor = false;
   private byHand: LineStream | null = null;
+  private readonly pen: GrblPen;
 
   constructor(
     readonly session: GrblSession,
     readonly firmware: string,
     private readonly options: ConnectOptions,
-  ) {}
+  ) {
+    this.pen = new GrblPen(session, () => options.events.changed());
+  }
 
   get clock(): Clock {
     return this.options.machineClock;
@@ -88,14 +86,22 @@ export class GrblMachine implements Machine {
     return this.options.speed;
   }
 
+  get penUp(): boolean | null {
+    return this.pen.isUp;
+  }
+
+  get penMoving(): boolean {
+    return this.pen.isMoving;
+  }
+
   get state(): MachineState | null {
     const { home, profile } = this;
     return this.session.failure || !home || !profile ? null : this.stateFrom(home, profile);
   }
 
   get memory(): GrblMemory {
-    const { home, penZeroMm, foundMidPlot, isStoppedByDoor } = this;
-    return { home, penZeroMm, foundMidPlot: isStoppedByDoor ? foundMidPlot : undefined };
+    const { home, pen, foundMidPlot, isStoppedByDoor } = this;
+    return { home, penZeroMm: pen.zeroMm, foundMidPlot: isStoppedByDoor ? foundMidPlot : undefined };
   }
 
   positionMm(profile: MachineProfile): { x: number; y: number } | null {
@@ -138,26 +144,9 @@ export class GrblMachine implements Machine {
   }
 
   async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
-    const { upPct, downPct } = settings.pen;
-    const pct = heightPct ?? (up ? upPct : downPct);
-    const lift = this.liftOf(machineOf(settings));
     if (this.isAsleep) await this.prepareMotors(settings);
     await this.mustBeUnlocked();
-    const lines = [SYNC, ...lift.lines(up, pct), waitAfter(lift, this.heightPct, pct, up, settings.pen)];
-    this.session.settings.mustPerform(lines, this.session.offset);
-    this.penUp = up;
-    this.heightPct = pct;
-    this.penMoving = true;
-    this.options.events.changed();
-    try {
-      for (const line of lines) await this.session.sendSurely(line);
-    } catch (error) {
-      this.penUp = this.heightPct = null;
-      throw error;
-    } finally {
-      this.penMoving = false;
-      this.options.events.changed();
-    }
+    await this.pen.move(up, settings, heightPct);
   }
 
   /** Lifts the pen after a fault; returns the error to report. */
@@ -194,9 +183,8 @@ export class GrblMachine implements Machine {
   /** Called after a job has been played to its end. */
   async arrived(): Promise<void> {
     this.machineAt = (await this.session.status()).machineAt;
-    this.penUp = true;
-    // Each layer may have its own.
-    this.heightPct = null;
+    // Each layer may have its own height.
+    this.pen.setState(true);
     this.options.events.changed();
   }
 
@@ -207,7 +195,7 @@ export class GrblMachine implements Machine {
     if (!findsHome(profile)) return false;
     if (!session.settings.hasHoming) throw noSwitches();
     // A Z axis is brought to its switch first. Any other pen must not be dragged: the user has asked for the lock to go.
-    const needsLift = !this.isLocked || this.liftOf(profile).kind !== "z";
+    const needsLift = !this.isLocked || this.pen.liftOf(profile).kind !== "z";
     if (this.isLocked && needsLift) await this.recovered(await session.status(), true);
     this.isAsleep = false;
     if (needsLift) await this.movePen(true, settings);
@@ -220,7 +208,7 @@ export class GrblMachine implements Machine {
     }
     await this.recovered(await session.status());
     // Z counts from its switch again.
-    this.penZeroMm = null;
+    this.pen.zeroMm = null;
     await this.homeIsHere();
     await this.movePen(true, settings);
     return true;
@@ -279,7 +267,7 @@ export class GrblMachine implements Machine {
   private async sendLine(line: string): Promise<ConsoleAnswer> {
     const answer = await sendTyped(this.session, line);
     if (answer.note !== null) {
-      this.penUp = this.heightPct = null;
+      this.pen.setState(null);
       await this.forgetPosition();
     }
     return answer;
@@ -303,7 +291,8 @@ export class GrblMachine implements Machine {
   ): LineStream {
     this.session.settings.mustPerform(commands.lines, this.session.offset);
     this.motorsOn = true;
-    this.penUp = this.heightPct = this.foundMidPlot = null;
+    this.foundMidPlot = null;
+    this.pen.setState(null);
     return new LineStream(this.session, commands, this.clock, onHeld);
   }
 
@@ -315,8 +304,8 @@ export class GrblMachine implements Machine {
     // Its greeting may have been lost.
     if (this.isLocked || !hasRestarted(status)) return true;
     // A pen that is up counts as down rather than the reverse: it must not be pushed into the paper.
-    await this.setHeight(penUp === true, settings);
-    return penUp !== null || this.liftOf(machineOf(settings)).kind !== "z";
+    await this.pen.countFrom(penUp === true, settings);
+    return penUp !== null || this.pen.liftOf(machineOf(settings)).kind !== "z";
   }
 
   /** Without homing, a lock has no other purpose than to be acknowledged. */
@@ -326,7 +315,7 @@ export class GrblMachine implements Machine {
 
   /** Call after a reset: restores the modes that the lines need, and takes over the reported position. */
   private async recovered({ state, machineAt }: Status, mayUnlock = this.mayUnlock): Promise<void> {
-    this.penUp = this.heightPct = null;
+    this.pen.setState(null);
     this.machineAt = machineAt;
     this.isLocked = isLocked(state) && !mayUnlock;
     this.options.events.changed();
@@ -345,7 +334,7 @@ export class GrblMachine implements Machine {
 
   /** Tells a later process where home is, as far as that is possible. */
   private markHome(): Promise<void> {
-    return this.session.attempt(homeMark(this.penZeroMm === null ? this.home : null, this.session.settings));
+    return this.session.attempt(homeMark(this.pen.zeroMm === null ? this.home : null, this.session.settings));
   }
 
   private use(settings: MachineSettings): MachineProfile {
@@ -384,13 +373,13 @@ export class GrblMachine implements Machine {
    * because it is probably up.
    */
   private async liftLeft(status: Status, settings: MachineSettings, before: PenBefore | null): Promise<void> {
-    const lift = this.liftOf(machineOf(settings));
+    const lift = this.pen.liftOf(machineOf(settings));
     if (lift.kind === "z" && hasRestarted(status)) {
       // It counts from 0 wherever the pen is, so the pen is lifted by its travel.
       if (!before) return;
       const penUp = before.penUp === true;
-      await this.setHeight(penUp, settings);
-      if (penUp) this.penUp = true;
+      await this.pen.countFrom(penUp, settings);
+      if (penUp) this.pen.setState(true);
       else await this.movePen(true, settings);
       return;
     }
@@ -398,32 +387,14 @@ export class GrblMachine implements Machine {
     const { foundMidPlot } = (before?.memory ?? {}) as Partial<GrblMemory>;
     if (this.home) this.foundMidPlot = foundMidPlot === undefined ? { penUp: left.isUp } : foundMidPlot;
     if (left.mustLift) await this.movePen(true, settings);
-    else if (left.isUp) this.penUp = true;
-  }
-
-  /** After a restart: the pen's current height is that of a pen that is up, or down. */
-  private async setHeight(penUp: boolean, settings: MachineSettings): Promise<void> {
-    const lift = penLiftOf(machineOf(settings));
-    if (lift.kind !== "z") return;
-    const { upPct, downPct } = settings.pen;
-    this.penZeroMm = (await this.session.status()).machineAt[2] - lift.valueAt(penUp ? upPct : downPct);
-  }
-
-  private liftOf(profile: MachineProfile): PenLift {
-    return penLiftOf(profile, this.session.settings.limitsFor(profile), this.zeroFrom(this.home)[2]);
-  }
-
-  /** Home and the pen's zero in work coordinates. */
-  private zeroFrom(home: Axes | null): Axes {
-    const { offset } = this.session;
-    const [x, y] = home ?? offset;
-    return difference([x, y, this.penZeroMm ?? offset[2]], offset);
+    else if (left.isUp) this.pen.setState(true);
   }
 
   private stateFrom(home: Axes, profile: MachineProfile): GrblState {
+    const [x, y] = difference(home, this.session.offset);
     return {
       at: difference(this.machineAt, home),
-      zero: this.zeroFrom(home),
+      zero: [x, y, this.pen.zeroInWorkMm],
       limits: this.session.settings.limitsFor(profile),
       queueMoves: this.session.queueMoves,
     };
@@ -433,7 +404,7 @@ export class GrblMachine implements Machine {
   private remember(status: Status, before: PenBefore | null, profile: MachineProfile): void {
     const { foundModes, settings } = this.session;
     const memory = hasRestarted(status) ? null : (before?.memory as GrblMemory | null | undefined);
-    this.penZeroMm = memory?.penZeroMm ?? null;
+    this.pen.zeroMm = memory?.penZeroMm ?? null;
     this.home = memory?.home ?? homeByMark(foundModes, status.machineAt, profile, settings);
     this.machineAt = status.machineAt;
     this.options.events.changed();
