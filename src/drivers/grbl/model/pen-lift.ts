@@ -48,6 +48,9 @@ export const LIFT_CHOICE: ControllerChoice = {
   ],
 };
 
+/** A line that waits, as a user may write it. */
+const WAIT = /^\s*G0*4\s*P\s*(\d*\.?\d+)/i;
+
 const given = (value: unknown): boolean => value !== null && value !== undefined;
 
 /** The first field that is missing or contradicts another; null if the profile describes one pen lift. */
@@ -137,7 +140,8 @@ export function penLiftOf(machine: MachineProfile, limits?: GrblAxisLimits, zShi
     kind: "lines",
     servo: machine.penServo ?? AT_ONCE,
     lines: (up) => (up ? penUpLines! : penDownLines!).split("\n"),
-    moveS: () => 0,
+    moveS: (fromPct, toPct) =>
+      fromPct === toPct ? 0 : waitsS(toPct > fromPct ? penUpLines! : penDownLines!),
     waitS,
     valueAt: () => 0,
     pctOf: () => 0,
@@ -162,6 +166,10 @@ class Scale {
     return DOWN_PCT + ((value - this.down) / (this.up - this.down)) * (UP_PCT - DOWN_PCT);
   }
 }
+
+/** The sum of the waits (G4) in own lines. How long their moves take is unknown. */
+const waitsS = (lines: string): number =>
+  lines.split("\n").reduce((seconds, line) => seconds + dwellS(Number(WAIT.exec(line)?.[1] ?? 0)), 0);
 
 /** At most three decimals. */
 export const number = (value: number): string => String(Number(value.toFixed(3)));

@@ -147,6 +147,20 @@ it("own lines are sent as they are", () => {
   ]);
 });
 
+it("waits in own lines count in the planned time", async () => {
+  const own = { penUpLines: "M3 S90\nG04 P0.32\nM3 S80", penDownLines: "M4 S40\nG4P.2\nM4 S20" };
+  const machine = { ...GRBL_LINES, controller: { ...GRBL_LINES.controller, ...own } };
+  const settings = { ...SETTINGS, customMachine: machine };
+  const { trajectory } = planJob({ strokes: DRAWING }, settings, machine);
+  const { world, begin, within } = await newPlotter({}, machine);
+  const run = await begin(new LocalPlanner(DRAWING), {}, settings);
+  const startS = world.nowS();
+  expect(await within(run.finished)).toEqual({ kind: "done" });
+  // The pen goes up before the plan begins.
+  const liftS = 0.35 + 0.2;
+  expect(Math.abs(world.nowS() - startS - liftS - trajectory.totalS)).toBeLessThan(0.01 * trajectory.totalS);
+});
+
 describe("a servo on a Grbl that is set otherwise", () => {
   it.each([
     [{ 32: 1 }, /^bad-setting: The Grbl is in laser mode \(\$32=1\).*\$32=0/],
