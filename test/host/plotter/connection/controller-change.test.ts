@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { PlotterConnection } from "../../../../host/plotter/plotter-connection.js";
 import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { PlotwrightError, type Transport } from "../../../../src/index.js";
+import { allDrivers } from "../../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../../../src/schema/index.js";
 import { GRBL } from "../../../support/machines/machine.js";
 import { LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js";
@@ -12,6 +13,8 @@ const WITH_GRBL: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, cu
 
 /** The default machine has an EiBotBoard, but a Grbl is on the port, at first switched off. */
 async function newPlotter() {
+  // Loading a driver takes real time.
+  await allDrivers();
   const world = new ManualClock();
   const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL });
   const port = { isOff: true };
