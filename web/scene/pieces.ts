@@ -29,8 +29,8 @@ export const jointCode = (ax: number, ay: number, bx: number, by: number): numbe
 export const FLUSH_PX = 0.25;
 /** Wider lines keep their round ends: what is drawn twice is only their edge. Half a width, device px. */
 export const FLUSH_REACH_PX = 4;
-/** Pieces overlap by this, px, so that rounding leaves no gap. */
-export const OVERLAP_PX = 0.02;
+/** Pieces overlap by this, px, so that rounding leaves no gap: more than the card's, and seldom a pixel's middle. */
+export const OVERLAP_PX = 0.004;
 
 /**
  * How far a piece is drawn beyond a joint, device px; null: to its round end. Where pieces that follow each other both cover

@@ -3,28 +3,38 @@ import { usePageState } from "../state/use-store.js";
 import { sharingText as words } from "./text.js";
 import "./sharing.css";
 
+/** A camera that has not answered by then counts as failed. */
+const PATIENCE_MS = 10_000;
+
 /** The camera's picture: a stream, or a still picture that is fetched repeatedly. */
 export const Camera = () => {
   const { cameraUrl, cameraEveryS } = usePageState((state) => state.view);
   const [turn, setTurn] = useState(0);
-  const [hasFailed, setFailed] = useState(false);
+  const [picture, setPicture] = useState<"awaited" | "shown" | "failed">("awaited");
   useEffect(() => {
     if (cameraEveryS === 0) return;
     const timer = setInterval(() => setTurn((now) => now + 1), cameraEveryS * 1_000);
     return () => clearInterval(timer);
   }, [cameraEveryS]);
+  useEffect(() => {
+    if (picture !== "awaited") return;
+    const timer = setTimeout(() => setPicture("failed"), PATIENCE_MS);
+    return () => clearTimeout(timer);
+  }, [picture]);
   if (!isCameraUrl(cameraUrl)) return null;
   return (
     <section className="card camera" aria-label={words.camera}>
       <h2 className="card-title">{words.camera}</h2>
+      {/* While it is tried again, without the browser's sign of a broken picture. */}
       <img
+        className={picture === "failed" ? "visually-hidden" : undefined}
         src={cameraEveryS === 0 ? cameraUrl : freshUrl(cameraUrl, turn)}
         alt={words.cameraAlt}
         referrerPolicy="no-referrer"
-        onLoad={() => setFailed(false)}
-        onError={() => setFailed(true)}
+        onLoad={() => setPicture("shown")}
+        onError={() => setPicture("failed")}
       />
-      {hasFailed && <p className="note note-error">{words.cameraFailed}</p>}
+      {picture === "failed" && <p className="note note-error">{words.cameraFailed}</p>}
     </section>
   );
 };

@@ -109,7 +109,7 @@ const Nothing = () => {
   const plan = usePageState((state) => state.watchPlan);
   if (!job) {
     return (
-      <div className="paper-message">
+      <div className="paper-message paper-hint">
         <strong>{words.nothing}</strong>
         <p>{words.nothingHint}</p>
       </div>

@@ -1,6 +1,6 @@
 /** The page is as high as the window and does not scroll; its panel does. The sheet has most of the window. */
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { plotBar, queuePanel } from "../../support/browser/page-actions.js";
+import { openView, plotBar, queuePanel } from "../../support/browser/page-actions.js";
 import { PageTest } from "../../support/browser/page-test.js";
 
 const SIZES = [
@@ -95,6 +95,20 @@ describe("the sheet", () => {
     await test.page.setViewportSize({ width: 390, height: 844 });
     expect(await canvasShare()).toBeGreaterThan(0.5);
     await test.page.setViewportSize({ width: 1440, height: 900 });
+  });
+});
+
+describe("Watch without a plot at 200 % zoom", () => {
+  it("says once that nothing is plotted, and leaves the low sheet free", async () => {
+    const { page } = test;
+    await page.setViewportSize({ width: 720, height: 450 });
+    await openView(page, "Watch");
+    await test.panel("Queue");
+    const words = page.getByText("Nothing is being plotted.").filter({ visible: true });
+    await words.first().waitFor();
+    expect(await words.count()).toBe(1);
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await openView(page, "Prepare");
   });
 });
 
