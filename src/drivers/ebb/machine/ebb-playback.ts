@@ -353,6 +353,8 @@ export class EbbPlayback implements Playback, PlaybackGrowth {
   private async afterEmergency(streamer: Streamer): Promise<StrokePosition | null> {
     const place = await this.positionAfterStop(streamer);
     this.stopped = { place };
+    // Of the next plan, which may only go home, this is all that is known.
+    if (place) this.progress.place = place;
     return place;
   }
 

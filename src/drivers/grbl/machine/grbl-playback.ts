@@ -126,6 +126,8 @@ export class GrblPlayback implements Playback {
         throw await machine.liftAfter(this.isHeightKnown ? cause : withUnsureHeight(cause), settings);
       }
       this.stopped = { place: left };
+      // Of the next plan, which may only go home, this is all that is known.
+      if (left) progress.place = left;
     } finally {
       this.current = null;
       this.events.ended(left);
