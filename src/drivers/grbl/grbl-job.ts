@@ -79,8 +79,11 @@ export function planGrblJob(
       isUp: !options.liftFirst,
       downPct: pen.downPct,
     }));
-  const lines = (): string[] =>
-    fileLines(machine, trajectory, commands(), layerComments(strokes, pen, { ...NO_PENS, ...penSetup }));
+  const lines = (): string[] => {
+    const travelMmPerS = Math.min(motion.travel.speedMmPerS, limits.speed[0], limits.speed[1]);
+    const linesBefore = layerComments(strokes, pen, { ...NO_PENS, ...penSetup }, travelMmPerS);
+    return fileLines(machine, trajectory, commands(), linesBefore);
+  };
   return { trajectory, commands, lines };
 }
 
@@ -89,24 +92,32 @@ function fileLines(
   machine: MachineProfile,
   { totalS }: Trajectory,
   { lines, layerAt }: GrblCommands,
-  linesBefore: (layer: StrokeLayer, travel: string) => readonly string[],
+  linesBefore: (layer: StrokeLayer, isAt: string) => readonly string[],
 ): string[] {
   const about = [
     comment(`For ${machine.name}: about ${Math.ceil(totalS / 60)} min. Begins with the pen up, at home.`),
     MODES,
   ];
+  let isAt = "G1X0Y0";
   return about.concat(
     lines.flatMap((line, i) => {
       const layer = layerAt.get(i);
-      return layer ? [...linesBefore(layer, line), line] : [line];
+      // A layer that begins where the one before it ends has no travel.
+      const before = layer ? linesBefore(layer, isMove(line) ? "" : isAt) : [];
+      if (isMove(line)) isAt = line.replace(/F.*/, "");
+      return [...before, line];
     }),
   );
 }
 
+const isMove = (line: string): boolean => line.startsWith("G1X");
+
 /** What is before a layer: where its pen is put in, the way home and a wait for the user; then what is drawn with which pen. */
-function layerComments(strokes: StrokeSet, pen: PenSettings, setup: PenSetup) {
+function layerComments(strokes: StrokeSet, pen: PenSettings, setup: PenSetup, travelMmPerS: number) {
   const stops = penStopsOf(strokes, setup);
-  return (layer: StrokeLayer, travel: string): readonly string[] => {
+  const feed = `F${number(60 * travelMmPerS)}`;
+  /** `back`: the move to where the layer begins; "": its first line is that. */
+  return (layer: StrokeLayer, back: string): readonly string[] => {
     const { upPct, downPct } = penOfLayer(pen, settingsIdOf(layer));
     const itsPen = penOf(setup, layer);
     const color = itsPen?.color ?? layer.color;
@@ -114,9 +125,9 @@ function layerComments(strokes: StrokeSet, pen: PenSettings, setup: PenSetup) {
     const stop = stops.find(({ layerId }) => layerId === layer.id);
     const change = stop && [
       comment(colored(`Put in ${itsPen ? `the pen ${itsPen.name}` : "the pen for this layer"}`)),
-      // At the speed of the travel to the layer.
-      `G1X0Y0${/F[\d.]+$/.exec(travel)?.[0] ?? ""}`,
+      `G1X0Y0${feed}`,
       WAIT_FOR_USER,
+      ...(back === "" ? [] : [`${back}${feed}`]),
     ];
     const name = `Layer ${layer.name}${itsPen ? `, pen ${itsPen.name}` : ""}`;
     return [...(change ?? []), comment(`${colored(name)}: pen down at ${downPct} %, up at ${upPct} %`)];
@@ -169,21 +180,25 @@ function writeCommands(
   let { isUp } = start;
   let pct = isUp ? start.heightPct : start.downPct;
   let next = 0;
+  /** The travel to the first stroke of a layer, and the drop, belong to the layer. */
+  const begin = (run: number): void => {
+    const isTravel = (trajectory.runs.stroke[run] ?? -1) < 0;
+    const stroke = trajectory.runs.stroke[isTravel ? run + 1 : run] ?? -1;
+    if (stroke < 0 || strokes.layer[stroke] === layer) return;
+    layer = strokes.layer[stroke];
+    layerAt.set(lines.length, strokes.layers[layer]);
+  };
   for (let run = 0; run <= runs.length; run++) {
     for (; next < penMoves.length && penMoves[next].beforeRun === run; next++) {
       const { up, startS, waitS, heightPct } = penMoves[next];
+      if (!up) begin(run);
       const moveS = lift.moveS(pct, heightPct);
       const isMove = up !== isUp || heightPct !== pct;
       if (isMove) for (const line of lift.lines(up, heightPct)) add(line, startS);
       add(waitLine(waitS - moveS), startS + moveS);
       [isUp, pct] = [up, heightPct];
     }
-    // The travel to the first stroke of a layer belongs to it.
-    const stroke = Math.max(trajectory.runs.stroke[run] ?? -1, trajectory.runs.stroke[run + 1] ?? -1);
-    if (stroke >= 0 && strokes.layer[stroke] !== layer) {
-      layer = strokes.layer[stroke];
-      layerAt.set(lines.length, strokes.layers[layer]);
-    }
+    begin(run);
     let feed = 0;
     const moves = runs[run] ?? [];
     for (const move of moves) {

@@ -60,6 +60,29 @@ describe("the G-code of a drawing with several pens", () => {
     ]);
   });
 
+  it("waits with the pen up also if a layer begins where the one before it ends, and comes back", () => {
+    const lineUp = { ...STROKES, xy: Float64Array.of(0, 0, 20, 10, 20, 10, 20, 20, 20, 20, 20, 30) };
+    const job = planJob(
+      { strokes: lineUp },
+      { motion: { travel: { speedMmPerS: 150 } }, penStops: "layers" },
+      GRBL,
+    );
+    const lines = job.lines();
+    const wait = lines.lastIndexOf("M0");
+    expect(lines.slice(wait - 4, wait + 5)).toEqual([
+      "G1Z5F3000",
+      "G4P0.1",
+      "; Put in the pen for this layer, #ffcc00",
+      "G1X0Y0F9000",
+      "M0",
+      "G1X20Y20F9000",
+      "; Layer sun, #ffcc00: pen down at 30 %, up at 60 %",
+      "G1Z0F3000",
+      "G4P0.1",
+    ]);
+    expect(lines.slice(2, 4)).toEqual(["; Layer sky, #0000ff: pen down at 30 %, up at 60 %", "G1Z0F3000"]);
+  });
+
   it("waits before each layer, or nowhere, as the settings say", () => {
     const waits = (pens: Partial<PenSetup>) => linesWith(pens).filter((line) => line === "M0").length;
     expect(waits({ ...PENS, penStops: "layers" })).toBe(3);
