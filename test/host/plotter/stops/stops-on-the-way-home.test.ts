@@ -1,7 +1,8 @@
 /** Emergency stops when everything is drawn, on each controller: nothing is drawn again. */
 import { expect, it } from "vitest";
 import type { RunningPlot } from "../../../../host/plotter/plotter-port.js";
-import { machineById, type DrawnPolyline } from "../../../../src/index.js";
+import type { DrawnPolyline } from "../../../../src/drivers/drawn-polylines.js";
+import { machineById } from "../../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS } from "../../../../src/schema/index.js";
 import type { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { compareDrawn } from "../../../support/drawings/drawn-truth.js";
