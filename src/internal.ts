@@ -192,6 +192,7 @@ export {
   allUsbIds,
   hasUsbId,
   usbIdsOf,
+  usesSetting,
 } from "./drivers/registry.js";
 export { allDrivers, driverOf } from "./drivers/connecting.js";
 export { scaledClock } from "./drivers/transport.js";

@@ -78,7 +78,7 @@ async function otherController(
   if (answer === null) return null;
   return new PlotwrightError(
     "no-board",
-    `${answer} answers on this port, but the model has another controller: choose yours, on the page under Plotter, in a command with --machine.`,
+    `${answer} answers on this port, but the model has another controller: choose your plotter's with --machine.`,
     { cause: error },
   );
 }

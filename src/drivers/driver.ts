@@ -42,6 +42,8 @@ export interface ControllerDescription {
   /** USB chips of its boards that other devices have too: "auto" asks these devices, and takes the first that answers. */
   readonly candidateIds: readonly UsbId[];
   readonly firmware: FirmwareRules;
+  /** Lines that a user may type in the console and that change nothing, for a hint. */
+  readonly consoleExamples: readonly [string, ...string[]];
   /**
    * Labels of the settings that do not affect its plots, by path, such as "motion.layers.*.cornerMm". Left out: none.
    */

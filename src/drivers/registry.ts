@@ -79,6 +79,10 @@ export function isPlannedAlike(
   return firmware.isPlannedAlike(pen, firmwareFor(machine, a), firmwareFor(machine, b));
 }
 
+/** `path`: as in `unusedSettings`. */
+export const usesSetting = (machine: MachineProfile, path: string): boolean =>
+  !Object.hasOwn(controllerOf(machine).unusedSettings ?? {}, path);
+
 /** Throws `bad-setting` for an unknown controller. */
 export function ofKind<T>(table: ByKind<T>, { name, controller }: MachineProfile): T {
   const all: Readonly<Record<string, T>> = table;

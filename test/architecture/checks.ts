@@ -88,12 +88,8 @@ export const GRBL_COMMAND = /^(G\d+([A-Z$]|$)|M[345](S|$)|\$([XHIGC#$]|SLP)$|\$(
 
 /** Commands of a controller outside its driver's folder. */
 export const foreignCommands = (sources: Sources): string[] => [
-  // HPGL has commands of the same names; the console's field shows one as its example.
-  ...literalsLike(sources, EBB_COMMAND, [
-    "src/drivers/ebb/",
-    "src/import/hpgl/",
-    "web/plotter/console/console.tsx",
-  ]),
+  // HPGL has commands of the same names.
+  ...literalsLike(sources, EBB_COMMAND, ["src/drivers/ebb/", "src/import/hpgl/"]),
   ...literalsLike(sources, GRBL_COMMAND, ["src/drivers/grbl/"]),
 ];
 

@@ -22,6 +22,7 @@ import {
   stopBefore,
   withoutLayer,
 } from "./layer-settings.js";
+import { useIsUsed } from "../state/used-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { layersText as words } from "./text.js";
 import { Button, IconButton } from "../ui/button.js";
@@ -110,7 +111,9 @@ const MotionFields = ({ row }: RowProps) => {
   const own: LayerMotion = usePageState(({ settings }) => settings.motion.layers?.[row.id]) ?? {};
   const { motion } = useInherited(row);
   const { changeSettings } = useActions();
-  return (["speedMmPerS", "accelMmPerS2"] as const).map((key) => (
+  const isAccelUsed = useIsUsed("motion.layers.*.accelMmPerS2");
+  const keys = ["speedMmPerS", ...(isAccelUsed ? (["accelMmPerS2"] as const) : [])] as const;
+  return keys.map((key) => (
     <OwnNumber
       key={key}
       {...DRAW_TABLE[key]}

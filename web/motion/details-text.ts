@@ -1,5 +1,6 @@
 /** Texts of the numbers behind a quality. */
 export const detailsText = {
+  plannedByController: "This plotter’s controller plans the motion by itself.",
   drawing: "Pen down",
   travelling: "Pen up",
   cornerHint:

@@ -15,6 +15,7 @@ import {
   type Shaper,
 } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { useIsUsed } from "../state/used-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { detailsText as words } from "./details-text.js";
 import { Select, Switch } from "../ui/fields/choice.js";
@@ -33,13 +34,19 @@ const FIRST_EASE = { lengthMm: EASE_TABLE.lengthMm.default, speedMmPerS: EASE_TA
 /** The numbers that a quality sets, and those that it does not change. */
 export const MotionDetails = () => {
   const motion = usePageState((state) => state.settings.motion);
+  const isPlannedHere = useIsUsed("motion.mode");
   return (
     <>
+      {!isPlannedHere && <p className="note">{words.plannedByController}</p>}
       <LimitFields which="draw" title={words.drawing} limits={motion.draw} mode={motion.mode} />
       <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
-      <AxisLimitFields motion={motion} />
-      <ShaperSelect motion={motion} />
-      <ModeChoice mode={motion.mode} />
+      {isPlannedHere && (
+        <>
+          <AxisLimitFields motion={motion} />
+          <ShaperSelect motion={motion} />
+          <ModeChoice mode={motion.mode} />
+        </>
+      )}
       <Refinements motion={motion} />
       <SendAhead />
     </>
@@ -110,12 +117,13 @@ interface LimitFieldsProps {
 const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
   const changeMotion = useMotionChange();
   const table = which === "draw" ? DRAW_TABLE : TRAVEL_TABLE;
-  const keys: readonly (keyof MotionLimits)[] = [
-    "speedMmPerS",
+  const isPlannedHere = useIsUsed("motion.mode");
+  const own: readonly (keyof MotionLimits)[] = [
     "accelMmPerS2",
     ...(which === "draw" ? (["cornerMm"] as const) : []),
     ...(mode === "scurve" ? (["jerkMmPerS3"] as const) : []),
   ];
+  const keys: readonly (keyof MotionLimits)[] = ["speedMmPerS", ...(isPlannedHere ? own : [])];
   return (
     <fieldset className="subgroup">
       <legend>{title}</legend>
@@ -170,6 +178,7 @@ const SendAhead = () => {
 
 const Refinements = ({ motion }: { motion: MotionSettings }) => {
   const change = useMotionChange();
+  const isFitUsed = useIsUsed("motion.fit.toleranceMm");
   const { ease, fit } = motion;
   return (
     <div className="subgroup">
@@ -192,12 +201,14 @@ const Refinements = ({ motion }: { motion: MotionSettings }) => {
           />
         </div>
       )}
-      <Switch
-        label={words.fit}
-        isOn={Boolean(fit)}
-        onChange={(isOn) => change("fit", { fit: isOn ? DEFAULT_FIT : null })}
-      />
-      {fit && (
+      {isFitUsed && (
+        <Switch
+          label={words.fit}
+          isOn={Boolean(fit)}
+          onChange={(isOn) => change("fit", { fit: isOn ? DEFAULT_FIT : null })}
+        />
+      )}
+      {isFitUsed && fit && (
         <SettingField
           setting={FIT_TABLE.toleranceMm}
           value={fit.toleranceMm}

@@ -1,5 +1,6 @@
 import { QUALITIES, qualityOf, withQuality, type Quality } from "../../src/internal.js";
 
+import { useIsUsed } from "../state/used-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { motionText as words } from "./text.js";
 import { Button } from "../ui/button.js";
@@ -16,12 +17,17 @@ const MotionDetails = lazyPart(async () => (await import("./motion-details.js"))
 export const MotionPanel = () => {
   const motion = usePageState((state) => state.settings.motion);
   const springs = useSprings();
+  const isPlannedHere = useIsUsed("motion.mode");
   const chosen = qualityOf(motion, springs) ?? "custom";
   const summary = `${words.qualities[chosen]}, ${formatNumber(motion.draw.speedMmPerS)} mm/s`;
   return (
     <Panel id="motion" title={words.title} summary={summary}>
-      <QualityChoice chosen={chosen} />
-      <Swing />
+      {isPlannedHere && (
+        <>
+          <QualityChoice chosen={chosen} />
+          <Swing />
+        </>
+      )}
       <SettingsGroup id="motion-details" isPart isLazy title={words.details}>
         <MotionDetails />
       </SettingsGroup>

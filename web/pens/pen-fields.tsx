@@ -1,5 +1,6 @@
 import { DROP_RATE, OVERLAP_TABLE, PEN_TABLE } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
+import { useIsUsed } from "../state/used-settings.js";
 import { usePageState } from "../state/use-store.js";
 import { PenSheet } from "./pen-sheet.js";
 import { heightsText as words } from "./text.js";
@@ -13,6 +14,8 @@ type PenSettings = PlotSettings["pen"];
 export const PenFields = () => {
   const pen = usePageState((state) => state.settings.pen);
   const change = usePenChange();
+  const isGentleUsed = useIsUsed("pen.dropPctPerS");
+  const isOverlapUsed = useIsUsed("pen.overlap");
   return (
     <>
       <div className="field-pair">
@@ -28,8 +31,8 @@ export const PenFields = () => {
         />
       </div>
       <PenSheet />
-      <Gentle pen={pen} />
-      <Overlap pen={pen} />
+      {isGentleUsed && <Gentle pen={pen} />}
+      {isOverlapUsed && <Overlap pen={pen} />}
     </>
   );
 };

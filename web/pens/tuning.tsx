@@ -3,6 +3,7 @@ import { useSprings } from "../motion/use-springs.js";
 import { isFirstPlot } from "../plotter/hand/pen-at-hand.js";
 import { RINGING } from "../plotter/plotter-actions.js";
 import { currentPlotter, type PageState } from "../state/store.js";
+import { useIsUsed } from "../state/used-settings.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { ActionButton } from "../ui/action-button.js";
 import { Button } from "../ui/button.js";
@@ -24,6 +25,7 @@ export const Tuning = () => {
   const isShown = usePageState(isTuningOffered);
   const hasPenSheet = usePageState(({ jobs }) => jobs.some(isPenSheet));
   const isMeasured = useSprings() !== null;
+  const hasRinging = useIsUsed("motion.shaper");
   const { changeView } = useActions();
   if (!isShown || isMeasured) return null;
   return (
@@ -45,10 +47,12 @@ export const Tuning = () => {
             </>
           )}
         </li>
-        <li>
-          <p className="note">{words.ringingHint}</p>
-          <ActionButton action={RINGING} />
-        </li>
+        {hasRinging && (
+          <li>
+            <p className="note">{words.ringingHint}</p>
+            <ActionButton action={RINGING} />
+          </li>
+        )}
       </ol>
     </section>
   );

@@ -14,6 +14,7 @@ import { adviceWords, homeWords, lampOf, penWords, plotterWords } from "./machin
 import { CONNECT, CONSOLE, MACHINES_DIALOG, RINGING, SAVE_LOG, SET_UP } from "./plotter-actions.js";
 import { SettingsGroup } from "../ui/fields/settings-group.js";
 
+const FindPlotter = lazyPart(async () => (await import("./find-plotter.js")).FindPlotter);
 const HandMoves = lazyPart(async () => (await import("./hand/hand-moves.js")).HandMoves);
 
 /** The plotter's state, and the controls that every plot needs. `children`: shown before them, from other features. */
@@ -25,6 +26,7 @@ export const MachinePanel = ({ children }: { children?: ReactNode }) => {
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
       <ActionButton action={CONNECT} />
+      {isMine && plotter && <FindPlotter plotter={plotter} />}
       {isMine && children}
       {isMine ? <PenAtHand /> : <StopMove />}
     </section>

@@ -11,6 +11,7 @@ import {
   type PageState,
 } from "../state/store.js";
 import { stateText } from "../state/text.js";
+import { isUsed } from "../state/used-settings.js";
 import { saveFile } from "../ui/files/save-file.js";
 import { movesText } from "./hand/text.js";
 import { penText, plotterText, whyNoMoveText as why } from "./text.js";
@@ -121,7 +122,10 @@ export const MACHINES_DIALOG = dialog(
   plotterText.profiles,
   "model, profile, custom machine, size",
 );
-export const RINGING = dialog("ringing", plotterText.ringing, "resonance, vibration, wobble, input shaper");
+export const RINGING: PageAction = {
+  ...dialog("ringing", plotterText.ringing, "resonance, vibration, wobble, input shaper"),
+  isOffered: (page) => isForOperator(page) && isUsed(page.store.getState(), "motion.shaper"),
+};
 export const CONSOLE = dialog("console", plotterText.console, "commands, terminal, ebb, serial");
 
 export const SAVE_LOG: PageAction = {

@@ -2,7 +2,7 @@
 export const plotterText = {
   title: "Plotter",
   virtual: "Virtual plotter: none is plugged in",
-  virtualHint: "Plots run on a virtual plotter, not on paper. Plug in a plotter: it is found automatically.",
+  virtualHint: "Plots run on a virtual plotter, not on paper. Plug in a plotter, then press Find plotter.",
   homeHint:
     "Home is where the carriage was when the motors were switched on, because this plotter has no limit switches. With the motors off, push it into the corner by hand.",
   findsHomeHint:
@@ -72,6 +72,7 @@ export const penText = {
     mark: "Put paper under the pen and draw a line. Too thin or broken: lower Height down.",
   },
   whichPlotter: "Which plotter is this?",
+  otherModels: "iDraw, or another one with a Grbl:",
   allModels: "All models",
   chooseModel: "Choose…",
   inCorner: "The carriage is in its corner",

@@ -12,6 +12,7 @@ export const description: ControllerDescription = {
   usbIds: [{ vendorId: "04d8", productId: "fd92" }],
   candidateIds: [],
   firmware: ebbFirmware,
+  consoleExamples: ["QS", "QM", "V"],
 };
 
 export { planEbbJob as planJob } from "./compile/ebb-job.js";

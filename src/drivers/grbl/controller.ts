@@ -32,6 +32,7 @@ export const description: ControllerDescription = {
     isPlannedAlike: () => true,
     advice: () => null,
   },
+  consoleExamples: ["$$", "$#", "$I"],
   unusedSettings: UNUSED_SETTINGS,
 };
 

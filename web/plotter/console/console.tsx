@@ -1,4 +1,5 @@
 import { useEffect, useRef, useState, type FormEvent, type KeyboardEvent } from "react";
+import { controllerOf, machineOf } from "../../../src/internal.js";
 import { activeJob, currentPlotter } from "../../state/store.js";
 import { useBackend, usePageState, usePageStore } from "../../state/use-store.js";
 import { Button } from "../../ui/button.js";
@@ -18,6 +19,7 @@ interface Line {
 export const Console = () => {
   const hasJob = usePageState((state) => activeJob(state) !== null);
   const name = usePageState((state) => currentPlotter(state)?.name ?? "");
+  const examples = usePageState(({ settings }) => controllerOf(machineOf(settings)).consoleExamples);
   const { lines, send } = useConversation();
   const end = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -34,8 +36,8 @@ export const Console = () => {
         ))}
         <div ref={end} aria-hidden="true" />
       </div>
-      {hasJob ? <p className="note">{words.refused}</p> : <CommandLine onSend={send} />}
-      <p className="note">{words.hint}</p>
+      {hasJob ? <p className="note">{words.refused}</p> : <CommandLine example={examples[0]} onSend={send} />}
+      <p className="note">{words.hint(examples.join(", "))}</p>
     </Sheet>
   );
 };
@@ -64,7 +66,12 @@ const useConversation = () => {
   return { lines, send };
 };
 
-const CommandLine = ({ onSend }: { onSend(line: string): Promise<void> }) => {
+interface CommandLineProps {
+  readonly example: string;
+  onSend(line: string): Promise<void>;
+}
+
+const CommandLine = ({ example, onSend }: CommandLineProps) => {
   const [line, setLine] = useState("");
   const [past, setPast] = useState<readonly string[]>([]);
   /** How far back in `past` the shown line is; 0: it is being typed. */
@@ -97,7 +104,7 @@ const CommandLine = ({ onSend }: { onSend(line: string): Promise<void> }) => {
         autoCapitalize="characters"
         spellCheck="false"
         aria-label={words.command}
-        placeholder="QS"
+        placeholder={example}
         value={line}
         onChange={(event) => setLine(event.target.value)}
         onKeyDown={onKeyDown}

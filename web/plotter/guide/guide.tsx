@@ -185,6 +185,7 @@ const ModelChoice = () => {
       ) : (
         <>
           <ModelCards onChoose={() => setOpen(false)} />
+          <p className="note">{words.otherModels}</p>
           <ModelSelect
             label={words.allModels}
             {...(isOpen ? {} : { unchosen: words.chooseModel })}

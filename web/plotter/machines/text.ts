@@ -58,5 +58,6 @@ export const consoleText = {
   send: "Send",
   noReply: "(no reply)",
   refused: "A plot is running. Commands sent now would spoil it.",
-  hint: "For those who know the board’s commands (QS, QM, V …). Arrow up shows earlier ones.",
+  hint: (examples: string) =>
+    `For those who know the board’s commands (${examples} …). Arrow up shows earlier ones.`,
 };

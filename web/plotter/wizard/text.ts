@@ -36,6 +36,7 @@ export const wizardText = {
   measuredY: "Measured height",
   stepsPerMm: (steps: string) => `That makes ${steps} steps per mm.`,
   take: "Use this",
+  penInProfile: "How this plotter lifts its pen is in its profile: change it afterwards under Machines…",
   servoHint:
     "Drag until the pen is well clear of the paper at its highest, and would press a little at its lowest. The heights for plots are set between the two.",
   highest: "Highest",

@@ -4,6 +4,7 @@ import { isEbbMachine, withController, type EbbProfile } from "../machines/profi
 import { wizardText as words } from "./text.js";
 import { ServoPin } from "../machines/profile-form.js";
 import { servoFollower } from "../hand/servo-follow.js";
+import { Button } from "../../ui/button.js";
 import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 
 /** In 1/12 µs: servos accept pulses of about 0.4 to 2.6 ms. */
@@ -14,7 +15,12 @@ export const ServoStep = ({ profile, ...props }: StepProps) =>
   isEbbMachine(profile) ? (
     <EbbServoStep profile={profile} {...props} />
   ) : (
-    <TakeOrSkip label={words.next} isOff onTake={() => undefined} onSkip={() => props.onNext(profile)} />
+    <>
+      <p>{words.penInProfile}</p>
+      <Button kind="primary" onClick={() => props.onNext(profile)}>
+        {words.next}
+      </Button>
+    </>
   );
 
 /** The pen follows two sliders, which set the ends of the servo's range. */
