@@ -1,6 +1,5 @@
 import {
   findMachine,
-  isEmptyBox,
   isReached,
   orientedPaper,
   quarterTurned,
@@ -8,22 +7,10 @@ import {
 } from "../../src/internal.js";
 import { paperBoxOf } from "../preview/frame.js";
 import type { Planned } from "../worker/protocol.js";
-import type { PageState } from "../state/store.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { formatCount, formatSize } from "../ui/format.js";
 import { reachText as words } from "./text.js";
-
-/** Whether a part of the drawing is out of the machine's reach. */
-export const isOutOfReach = ({ planned, settings }: PageState): boolean => {
-  const machine = findMachine(settings);
-  return (
-    machine !== null &&
-    planned !== null &&
-    !isEmptyBox(planned.drawnBox) &&
-    !isReached(planned.drawnBox, machine)
-  );
-};
 
 /** The height of what is turned: the paper, or at true size the file's page. */
 const turningHeightMm = ({ settings, choice, pageToPaper, pageWidthMm, pageHeightMm }: Planned): number => {

@@ -1,7 +1,7 @@
 import type { OutsidePaper as Outside } from "../../src/internal.js";
 import type { PlotSettings } from "../../src/schema/index.js";
 import { wholeTurn } from "../scene/placing.js";
-import type { PageState } from "../state/store.js";
+import { isOutsideUnanswered } from "./where-drawn.js";
 import { useActions, usePageState } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
@@ -11,10 +11,6 @@ import type { Planned } from "../worker/protocol.js";
 import { outsideText as words } from "./text.js";
 
 type Prepare = PlotSettings["prepare"];
-
-/** A part of the drawing is outside the paper, and the user has not chosen what happens to it. */
-export const isOutsideUnanswered = ({ planned, settings }: PageState): boolean =>
-  Boolean(planned?.outside) && settings.prepare.outside !== "allow";
 
 /** What lies outside the paper, and the choices. */
 export const OutsidePaper = () => {

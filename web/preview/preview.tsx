@@ -1,7 +1,7 @@
 import { stateAt } from "../../src/index.js";
 import { tileWindows, type Box } from "../../src/internal.js";
 import { drawnUntilS } from "./drawn-until.js";
-import { activeJob, type PageState, type PageStore } from "../state/store.js";
+import { activeJob, selectedStroke, type PageState, type PageStore } from "../state/store.js";
 import { usePageState } from "../state/use-store.js";
 import { previewText as words } from "./text.js";
 import { deskOf, followPen } from "./desk.js";
@@ -10,7 +10,7 @@ import { PenGlide } from "./pen/pen-glide.js";
 import type { Planned } from "../worker/protocol.js";
 import { hoverAt, type Hover } from "../scene/hover.js";
 import type { Point } from "./gestures.js";
-import { HoverTip, StrokeCard } from "./stroke-card.js";
+import { HoverTip } from "./hover-tip.js";
 import { frameNow, grabFrame, nudgeFrame, painterOf } from "./frame.js";
 import { boxAround } from "../scene/placing.js";
 import { Legend, PreviewTools, ViewModes } from "./preview-tools.js";
@@ -20,6 +20,9 @@ import { selectionPainter } from "./stroke.js";
 import { TimeLine } from "./time-line.js";
 import { penLooks, viewModeOf } from "./view-modes.js";
 import { mmFromPx, mmFromScreen, type View } from "../scene/view.js";
+import { lazyPart } from "../ui/lazy-part.js";
+
+const StrokeCard = lazyPart(async () => (await import("./stroke-card.js")).StrokeCard);
 
 /** The drawing's name above the paper, the legend under it. */
 const KEPT_FREE = { abovePx: 26, belowPx: 30 };
@@ -41,9 +44,14 @@ export const Preview = () => (
     <Legend />
     <PaperMessage />
     <HoverTip />
-    <StrokeCard />
+    <SelectedStroke />
   </Sheet>
 );
+
+const SelectedStroke = () => {
+  const isSelected = usePageState((state) => selectedStroke(state) !== null);
+  return isSelected ? <StrokeCard /> : null;
+};
 
 /** Selects and moves the drawings of a sheet. Null until there was one. */
 let sheetHand: typeof import("./sheet-hand.js") | null = null;

@@ -1,6 +1,5 @@
 /** Actions that plot the drawing or concern the running plot. */
-import { isOutOfReach } from "../drawing/out-of-reach.js";
-import { isOutsideUnanswered } from "../drawing/outside-paper.js";
+import { isOutOfReach, isOutsideUnanswered } from "../drawing/where-drawn.js";
 import { outsideText } from "../drawing/text.js";
 import { plotterText } from "../plotter/text.js";
 import { previewText } from "../preview/text.js";

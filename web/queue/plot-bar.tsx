@@ -1,5 +1,4 @@
-import { isOutOfReach, OutOfReach } from "../drawing/out-of-reach.js";
-import { isOutsideUnanswered, OutsidePaper } from "../drawing/outside-paper.js";
+import { isOutOfReach, isOutsidePaper, isOutsideUnanswered } from "../drawing/where-drawn.js";
 import { movesText } from "../plotter/hand/text.js";
 import { TRACE_FRAME } from "../plotter/plotter-actions.js";
 import { plotterText } from "../plotter/text.js";
@@ -15,6 +14,8 @@ import { formatCount, formatDuration, formatLength, formatPercent } from "../ui/
 import { lazyPart } from "../ui/lazy-part.js";
 import { NumberField } from "../ui/fields/number-field.js";
 
+const OutsidePaper = lazyPart(async () => (await import("../drawing/outside-paper.js")).OutsidePaper);
+const OutOfReach = lazyPart(async () => (await import("../drawing/out-of-reach.js")).OutOfReach);
 const QueueStrip = lazyPart(async () => (await import("./queue-strip.js")).QueueStrip);
 const HoldCard = lazyPart(async () => (await import("./hold-card.js")).HoldCard);
 const JobButtons = lazyPart(async () => (await import("./job-buttons.js")).JobButtons);
@@ -63,12 +64,13 @@ const PlotTime = () => {
 /** What the user should know before pressing Plot, or why it is off. */
 const Notes = () => {
   const isUnreached = usePageState(isOutOfReach);
-  const isOutside = usePageState(isOutsideUnanswered);
+  const isOutside = usePageState(isOutsidePaper);
+  const isUnanswered = usePageState(isOutsideUnanswered);
   return (
     <div className="plot-notes">
       <CutOffNote />
-      <OutsidePaper />
-      {isUnreached && !isOutside && <OutOfReach />}
+      {isOutside && <OutsidePaper />}
+      {isUnreached && !isUnanswered && <OutOfReach />}
       <PlotNote />
     </div>
   );
