@@ -196,6 +196,25 @@ describe("what the margins cut off", () => {
   });
 });
 
+describe("the legend of many layers", () => {
+  it("lies below the sheet, not over it", async () => {
+    const layers = Array.from(
+      { length: 40 },
+      (_, k) =>
+        `<g id="Layer number ${k} with a name of some words"><path d="M10 ${10 + 4 * k}H280" stroke="#d00000"/></g>`,
+    );
+    await test.drop(
+      "forty layers",
+      `<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210">${layers.join("")}</svg>`,
+    );
+    await test.look("Layer");
+    const legend = (await test.page.locator(".legend").boundingBox())!;
+    expect(legend.height).toBeGreaterThan(30);
+    expect(legend.y).toBeGreaterThanOrEqual((await test.onScreen("paper")).bottom);
+    await test.look("Ink");
+  });
+});
+
 describe("the legend on a small screen", () => {
   const COLORS = ["#112233", "#aa0000", "#00aa00", "#0000aa", "#aaaa00", "#00aaaa"];
   const legend = () => test.page.locator(".legend");

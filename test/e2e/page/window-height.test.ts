@@ -2,6 +2,7 @@
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { openView, plotBar, queuePanel } from "../../support/browser/page-actions.js";
 import { PageTest } from "../../support/browser/page-test.js";
+import { ruledSheet } from "../../support/drawings/drawings.js";
 
 const SIZES = [
   { width: 1440, height: 900 },
@@ -95,6 +96,21 @@ describe("the sheet", () => {
     await test.page.setViewportSize({ width: 390, height: 844 });
     expect(await canvasShare()).toBeGreaterThan(0.5);
     await test.page.setViewportSize({ width: 1440, height: 900 });
+  });
+});
+
+describe("a notice", () => {
+  it("of a drawing with a long name stays in the window, with the button that closes it", async () => {
+    const name = "a_long_name_without_a_space_".repeat(6);
+    await test.drop(name, ruledSheet(1));
+    await test.queue();
+    const notice = test.page.locator(".notice").filter({ hasText: name });
+    const close = (await notice.getByRole("button", { name: "Close" }).boundingBox())!;
+    const sheet = (await test.page.locator(".canvas:visible").boundingBox())!;
+    expect(close.x + close.width).toBeLessThan(sheet.x + sheet.width);
+    await notice.getByRole("button", { name: "Close" }).click();
+    const [{ id }] = await test.jobs();
+    await test.page.request.delete(`${test.server.url}/api/v1/jobs/${id}`);
   });
 });
 

@@ -52,7 +52,7 @@ export const ListLegend = ({ title, entries }: { title: string; entries: readonl
   const different = [...new Map(entries.map((entry) => [keyOf(entry), entry]))];
   const restCount = different.length - SHOWN_ENTRIES;
   return (
-    <figure className="legend">
+    <figure className="legend legend-rows">
       <figcaption>{title}</figcaption>
       {/* On a phone it is one line, which scrolls. */}
       <ul className="legend-list" tabIndex={0}>
