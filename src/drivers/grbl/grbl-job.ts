@@ -1,12 +1,13 @@
 /**
  * Makes a job for a Grbl controller from strokes: a model of the motion that Grbl's planner produces, and the lines to send.
  */
-import { settingsIdOf, type StrokeLayer, type StrokeSet } from "../../drawing/stroke-set.js";
+import { settingsIdOf, strokeCount, type StrokeLayer, type StrokeSet } from "../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../machines/profile.js";
 import { penOfLayer } from "../../plan/pen/pen-times.js";
 import { penMovesOf } from "../../plan/pen/pen-moves.js";
 import { plan } from "../../plan/plan.js";
-import { runEndS, type Trajectory } from "../../plan/trajectory.js";
+import { runEndS, type StrokePosition, type Trajectory } from "../../plan/trajectory.js";
+import { strokeLengthMm } from "../../position/on-drawing.js";
 import { NO_PENS, penOf, penStopsOf, type PenSetup } from "../../prepare/layers/pens.js";
 import type { PenSettings } from "../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from "../machine-job.js";
@@ -61,7 +62,7 @@ export function planGrblJob(
   const runs = new GrblRuns(machine, limits, queueMoves);
   const trajectory = plan(strokes, { ...motion, mode: "junction", shaper: "none" }, penAtRest(pen), {
     servo: lift.servo,
-    from: options.from ?? undefined,
+    from: options.from ? undrawn(strokes, options.from, 1 / machine.stepsPerMm) : undefined,
     startX: options.startXMm,
     startY: options.startYMm,
     endX: options.endXMm,
@@ -86,6 +87,14 @@ export function planGrblJob(
   };
   return { trajectory, commands, lines };
 }
+
+/** A rest of a stroke that is shorter than a step has no moves, and would count as a dot. */
+const undrawn = (strokes: StrokeSet, from: StrokePosition, stepMm: number): StrokePosition =>
+  from.alongMm > 0 &&
+  from.stroke < strokeCount(strokes) &&
+  strokeLengthMm(strokes, from.stroke) - from.alongMm < stepMm
+    ? { stroke: from.stroke + 1, alongMm: 0 }
+    : from;
 
 /** For any sender: with comments, which Grbl skips, at the beginning and at each layer, and waits for other pens. */
 function fileLines(

@@ -129,6 +129,19 @@ describe("a plotter with a Grbl", () => {
     },
   );
 
+  it("goes on with the next stroke if less than a step of one is left, also after a second pause", async () => {
+    const { world, board, begin } = await newPlotter();
+    const from = { stroke: 0, alongMm: 80 - 0.001 };
+    const run = await begin(TWO_LINES, { from });
+    await world.run(run.resume());
+    await world.advance(0.6);
+    await world.run(run.pause());
+    expect(run.holdPlace).toEqual({ stroke: 1, alongMm: 0 });
+    await world.run(run.resume());
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(drawn(board)).toEqual([[20, 50, 80, 50]]);
+  });
+
   it("is cancelled: lifts the pen and goes home", async () => {
     const { world, board, begin } = await newPlotter();
     const run = await begin(DRAWING);
