@@ -324,7 +324,7 @@ export class GrblSession implements LineProtocol {
   }
 
   take(line: string): void {
-    this.lines.expectWithin(PATIENCE_S);
+    this.lines.expectWithin(this.sent.first?.line === HOME ? HOMING_S : PATIENCE_S);
     this.reportedOffset = offsetOf(line) ?? this.reportedOffset;
     const status = statusOf(line, this.offset, this.settings.mmPerUnit);
     if (status) return this.reported(status);

@@ -23,6 +23,17 @@ async function plotter(
   return { ...all, own, start: () => all.begin(new LocalPlanner(DRAWING), {}, own) };
 }
 
+it.each(["1.1", "0.9", "grblHAL", "FluidNC", "DrawCore"] as const)(
+  "a %s finds home, whether or not it reports its state meanwhile",
+  async (face) => {
+    const homes = withSwitches(GRBL);
+    const { board, begin, within } = await newPlotter({ face, settings: { 22: 1 } }, homes);
+    const run = await begin(new LocalPlanner(DRAWING), {}, { ...SETTINGS, customMachine: homes });
+    expect(await within(run.finished)).toEqual({ kind: "done" });
+    expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
+  },
+);
+
 describe.each([
   ["a Z axis", GRBL],
   ["a servo", GRBL_SERVO],
