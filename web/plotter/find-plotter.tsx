@@ -1,18 +1,13 @@
 import { useState } from "react";
 import type { AskedDevice, Plotter } from "../../src/schema/index.js";
 import { useSharing } from "../sharing/use-sharing.js";
-import { useBackend } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { findText as words } from "./find-text.js";
 import "./find-plotter.css";
 
-const isSought = ({ kind, connection }: Plotter): boolean =>
-  kind === "virtual" || connection === "absent" || connection === "fault";
-
-/** While no plotter is connected: asks what is on the ports of the server's computer, and lets the user take one. */
+/** Asks what is on the ports of the server's computer, and lets the user take one. */
 export const FindPlotter = ({ plotter }: { plotter: Plotter }) => {
   const sharing = useSharing();
-  const { features } = useBackend();
   const [isAsking, setAsking] = useState(false);
   /** Null: nothing was asked yet. */
   const [found, setFound] = useState<readonly AskedDevice[] | null>(null);
@@ -21,7 +16,6 @@ export const FindPlotter = ({ plotter }: { plotter: Plotter }) => {
     setFound((await sharing.plotters.ask())?.devices ?? null);
     setAsking(false);
   };
-  if (!features.sharing || !isSought(plotter)) return null;
   const free = found?.filter(({ inUseBy }) => inUseBy === null || inUseBy === plotter.id);
   return (
     <div className="find-plotter">

@@ -17,16 +17,20 @@ import { SettingsGroup } from "../ui/fields/settings-group.js";
 const FindPlotter = lazyPart(async () => (await import("./find-plotter.js")).FindPlotter);
 const HandMoves = lazyPart(async () => (await import("./hand/hand-moves.js")).HandMoves);
 
+const isSought = ({ kind, connection }: Plotter): boolean =>
+  kind === "virtual" || connection === "absent" || connection === "fault";
+
 /** The plotter's state, and the controls that every plot needs. `children`: shown before them, from other features. */
 export const MachinePanel = ({ children }: { children?: ReactNode }) => {
   const plotter = usePageState(currentPlotter);
   const isMine = usePageState(mayOperate);
+  const { features } = useBackend();
   return (
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
       <ActionButton action={CONNECT} />
-      {isMine && plotter && <FindPlotter plotter={plotter} />}
+      {isMine && features.sharing && plotter && isSought(plotter) && <FindPlotter plotter={plotter} />}
       {isMine && children}
       {isMine ? <PenAtHand /> : <StopMove />}
     </section>
