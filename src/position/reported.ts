@@ -26,6 +26,9 @@ const LOWERING_MM = 0.15;
 /** So short a piece is not seen if it is drawn twice, or left out at the end of a stroke; mm. */
 const UNSEEN_MM = 0.05;
 
+/** A received position is computed from times, so that of a stroke's start may be this far after it; mm. */
+const AT_START_MM = 1e-6;
+
 /** Rounding of a position to whole steps of both motors. */
 const ROUNDED_STEPS = 2;
 /** The same at the end of a command: half a step of each, √½ together. */
@@ -99,7 +102,8 @@ export function reportedPosition(
   });
 
   // On its way to the stroke, at a stop by way of home. At the end of the stroke before, the pen may still be down.
-  if (received.alongMm === 0) {
+  const isAtStart = received.alongMm < AT_START_MM;
+  if (isAtStart) {
     const { stroke } = received;
     const ways = [travelTo(stroke)];
     if (stroke > 0 && stops.includes(stroke)) ways.push({ from: endOf(stroke - 1), to: HOME });
@@ -117,7 +121,7 @@ export function reportedPosition(
       ({ alongMm, awayMm }) => awayMm <= nearMm && alongMm >= fromMm && alongMm <= leftMm,
     );
     const pass = firstPass(passes, since);
-    const mayTravel = stroke > received.stroke || received.alongMm === 0;
+    const mayTravel = stroke > received.stroke || isAtStart;
     if (mayTravel && !pen.up && isLowering(travelTo(stroke), pen, pass, since)) return { stroke, alongMm: 0 };
     leftMm -= lengthMm;
     const next = stroke + 1;

@@ -300,6 +300,19 @@ describe("the place where a plot was interrupted", () => {
     });
   });
 
+  it("is the received stroke on the way to it along its own line, also if its start was computed a rounding error late", () => {
+    const strokes = strokesOf([10, 5, 45, 5], [10, 5, 40, 5]);
+    for (const alongMm of [0, 5e-29, 1e-9]) {
+      const received = { stroke: 1, alongMm };
+      for (const x of [44, 30, 19])
+        expect(reportedPosition(strokes, received, { x, y: 5, up: true }, FAR)).toEqual(received);
+      expect(reportedPosition(strokes, received, { x: 9.95, y: 5, up: false }, FAR)).toEqual({
+        stroke: 1,
+        alongMm: 0,
+      });
+    }
+  });
+
   it("is unknown if the pen is somewhere else, or further than it can have come", () => {
     expect(reportedPosition(two, received, { x: 60, y: 5, up: false }, since)).toBeNull();
     expect(reportedPosition(two, received, { x: 60, y: 0, up: false }, { ...since, aheadMm: 30 })).toBeNull();
