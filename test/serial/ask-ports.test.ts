@@ -100,7 +100,8 @@ describe("the ports of this computer", () => {
   });
 
   it("say why they can't be opened", async () => {
-    const holding = await openSerial(ebb.path);
+    // On a busy computer a port stays locked for a moment after it was closed.
+    const holding = await vi.waitFor(() => openSerial(ebb.path));
     const asked = await askPorts({ devices, clock: nodeClock }, (path) => path !== ebb.path);
     await holding.close();
     expect(asked).toMatchObject([

@@ -29,6 +29,8 @@ const options = () => test.page.getByRole("listbox", { name: "Results" }).getByR
 
 /** Opens the search, and types. */
 async function search(words: string): Promise<void> {
+  // The last search may still be closing, and would take the keys.
+  await box().waitFor({ state: "detached" });
   await test.page.keyboard.press("Control+k");
   await box().waitFor();
   await test.page.keyboard.type(words);
