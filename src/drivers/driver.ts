@@ -210,8 +210,8 @@ interface MachineParts {
   /** What the user should know about this machine before plotting, in words. */
   readonly note?: string | null;
   /**
-   * How the machine was found, if it still knew its position when it was connected. Null after the first move, and for
-   * a carriage that may have been brought home by hand.
+   * How the machine was found, if an unfinished plot had moved it last and it still knew its position when it was
+   * connected. Null after the first move.
    */
   readonly foundMidPlot?: { readonly penUp: boolean } | null;
   /** A servo that moves the pen. */

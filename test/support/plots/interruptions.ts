@@ -153,12 +153,11 @@ export class InterruptiblePlot {
     const last = count - 1;
     const at = positionFromMotors(machineOf(settings), stream.steps1[last], stream.steps2[last]);
     const penUp = isPenUpBefore(trajectory, stream.planS[count]);
-    // A carriage at home may have been brought there by hand.
-    const foundMidPlot = penUp && at.x === 0 && at.y === 0 ? null : { penUp };
-    const machine = { foundMidPlot, speed: 1, positionMm: () => at };
+    const machine = { foundMidPlot: { penUp }, speed: 1, positionMm: () => at };
     const found = resumePosition(machine, strokes, settings, [], { from, received });
+    if (process.env.DBG) console.log(count, stream.count, received, from, penUp, at, found);
     const drawnMm = this.drawnMm(count);
-    const sure: StrokePosition = foundMidPlot && received ? received : from;
+    const sure: StrokePosition = received ?? from;
     return { missingMm: mmOf(strokes, found) - drawnMm, unsureMm: drawnMm - mmOf(strokes, sure) };
   }
 

@@ -51,11 +51,8 @@ export class Carriage {
       await position.readBack();
       position.motorsOn = true;
     }
-    // A carriage at home may have been brought there by hand since the plot, so its place says nothing about the plot. Nor
-    // does one that another program has moved.
-    const { state } = position;
-    const isHome = state?.steps1 === 0 && state.steps2 === 0;
-    if (state && isOurs && !(penUp && isHome)) position.foundMidPlot = { penUp };
+    // The place of a carriage that was moved since the plot, also by another program, says nothing about the plot.
+    if (position.state && isOurs && position.isInPlot) position.foundMidPlot = { penUp };
   }
 
   /** Switches the motors on if they are off. Fails if the position was lost while the board was at rest. */
@@ -104,6 +101,7 @@ export class Carriage {
 
   async perform(plot: PlannedPlot, settings: MachineSettings): Promise<void> {
     const streamer = this.upkeep.streamer(settings);
+    this.position.mark.noteInPlot(false);
     try {
       await this.play(streamer, plot, settings);
     } catch (error) {

@@ -122,7 +122,10 @@ export class EbbPlayback implements Playback, PlaybackGrowth {
     if (!at || !this.progress.includes(at.stream)) return undefined;
     const { trajectory, next } = this.progress.partOf(at.stream);
     const isFirstTravel = at.stream === this.firstPart?.commands && at.planS <= firstStrokeS(trajectory);
-    return isFirstTravel ? undefined : (estimatedPosition(trajectory, at.planS) ?? next ?? undefined);
+    if (isFirstTravel) return undefined;
+    return (
+      estimatedPosition(trajectory, at.planS) ?? next ?? endOfPlan(this.strokes, trajectory) ?? undefined
+    );
   }
 
   /** Plays a plan to its end, or to a hold, with the pen up at first; `afterS`: time of the plot after this plan. */
@@ -140,6 +143,8 @@ export class EbbPlayback implements Playback, PlaybackGrowth {
     const streamer = carriage.upkeep.streamer(this.settings, (steps, asked) => this.reached(steps, asked));
     // First, because a reply that comes at once may call `fail`.
     this.streamer = streamer;
+    const { mark } = carriage.position;
+    mark.noteInPlot(true);
     const played = carriage.play(streamer, plot, this.settings);
     begun();
     let left: StrokePosition | null = null;
@@ -158,6 +163,8 @@ export class EbbPlayback implements Playback, PlaybackGrowth {
         penMoving: false,
       });
       left = this.whereStopped() ?? this.progress.place;
+      // At home, nothing is drawn that the journal does not know.
+      if (isAtHome(carriage.position.state)) mark.noteInPlot(false);
     } catch (error) {
       // The play may have failed for another reason before the stop was requested.
       if (error === this.emergency) {
@@ -424,6 +431,8 @@ function firstStrokeS({ runs }: Trajectory): number {
   const run = runs.stroke.findIndex((stroke) => stroke >= 0);
   return run < 0 ? Infinity : runs.startS[run];
 }
+
+const isAtHome = (state: BoardState | null): boolean => state?.steps1 === 0 && state.steps2 === 0;
 
 const isWithinStroke = (strokes: StrokeSet, { stroke, alongMm }: StrokePosition): boolean =>
   alongMm > EDGE_MM && alongMm < strokeLengthMm(strokes, stroke) - EDGE_MM;

@@ -1,6 +1,6 @@
 /**
- * The mark that shows whether the board's step counters mean anything. It is in the board's layer variable, which is 0
- * after each start of the board.
+ * The mark that shows whether the board's step counters mean anything, and whether an unfinished plot moved the carriage
+ * last. It is in the board's layer variable, which is 0 after each start of the board.
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import type { BoardSession } from "../stream/session.js";
@@ -9,15 +9,27 @@ import type { BoardSession } from "../stream/session.js";
 const HOMED_VARIABLE = 12;
 /** The mark while the counters count from home is this plus the microstep mode. */
 const POSITION_KNOWN = 112;
+/** The same from the beginning of a plot until it ends at home, or something else moves the carriage. */
+const IN_PLOT = 120;
 /** The mark while they do not count from home. */
 const SWITCHED_ON = 1;
 const COARSEST_MODE = 5;
 /** Time for the motion that may block the board's parser, s. */
 const MOTION_S = 2;
 
+/** What the mark says: the microstep mode if the counters count from home, otherwise 0. */
+interface Marked {
+  readonly mode: number;
+  /** The home that a switch has found. */
+  readonly isHomed: boolean;
+  readonly isInPlot: boolean;
+}
+
 export class PositionMarker {
   /** The query that returns the mark. */
   readonly query: string;
+  /** As the board has it. */
+  private value = 0;
 
   constructor(
     private readonly session: BoardSession,
@@ -27,24 +39,26 @@ export class PositionMarker {
   }
 
   /**
-   * The microstep mode, if the counters still count from home; otherwise 0. Before firmware 2.7, a stop has to zero the
-   * counters, so they do not always count from home. `isHomed`: the home that a switch has found.
+   * Reads the mark. Before firmware 2.7, a stop has to zero the counters, so they do not always count from home.
    */
-  async markedMode(): Promise<{ readonly mode: number; readonly isHomed: boolean }> {
+  async read(): Promise<Marked> {
     const { session, features } = this;
-    const none = { mode: 0, isHomed: false };
+    const none = { mode: 0, isHomed: false, isInPlot: false };
     if (!features.hasClear) return none;
     // A board that has restarted has its motors off (QE: from 2.8.0).
     const [divisor1 = 0, divisor2 = 0] = features.enableIsQueued
       ? (await session.query("QE")).split(",").map(Number)
       : [];
     if (features.enableIsQueued && divisor1 === 0 && divisor2 === 0) return none;
+    this.value = Number(await session.query(this.query));
+    const isInPlot = this.value > IN_PLOT;
     if (features.hasFutureSyntax && Number(await session.query(`QL,${HOMED_VARIABLE}`)) === 1) {
       // With one motor off, the carriage may have been moved.
-      return divisor1 === divisor2 ? { mode: COARSEST_MODE - Math.log2(divisor1), isHomed: true } : none;
+      const mode = COARSEST_MODE - Math.log2(divisor1);
+      return divisor1 === divisor2 ? { mode, isHomed: true, isInPlot } : none;
     }
-    const mode = Number(await session.query(this.query)) - POSITION_KNOWN;
-    return mode >= 1 && mode <= COARSEST_MODE ? { mode, isHomed: false } : none;
+    const mode = this.value - (isInPlot ? IN_PLOT : POSITION_KNOWN);
+    return mode >= 1 && mode <= COARSEST_MODE ? { mode, isHomed: false, isInPlot } : none;
   }
 
   /**
@@ -54,6 +68,17 @@ export class PositionMarker {
   async set(microstepMode: number, isFromHome: boolean, isHomed: boolean): Promise<void> {
     await this.write(isFromHome ? POSITION_KNOWN + microstepMode : SWITCHED_ON);
     await this.writeHomed(isFromHome && isHomed);
+  }
+
+  /**
+   * Call before a plot moves the carriage, when it has ended, and before anything else moves it. Does not wait for the
+   * reply, so that motion begins at once. Without this mark, more is drawn twice after an interruption.
+   */
+  noteInPlot(isInPlot: boolean): void {
+    const { value } = this;
+    if (value <= SWITCHED_ON || isInPlot === value > IN_PLOT) return;
+    this.value = isInPlot ? value + IN_PLOT - POSITION_KNOWN : value - IN_PLOT + POSITION_KNOWN;
+    this.session.write([{ line: this.lineOf(this.value) }]);
   }
 
   /** Call when the position is lost. */
@@ -79,7 +104,11 @@ export class PositionMarker {
   }
 
   private async write(value: number): Promise<void> {
-    const { session, features } = this;
-    if (features.hasStepQuery) await session.send(features.hasFutureSyntax ? `SL,${value},0` : `SL,${value}`);
+    if (!this.features.hasStepQuery) return;
+    this.value = value;
+    await this.session.send(this.lineOf(value));
+  }
+  private lineOf(value: number): string {
+    return this.features.hasFutureSyntax ? `SL,${value},0` : `SL,${value}`;
   }
 }

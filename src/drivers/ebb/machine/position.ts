@@ -32,6 +32,8 @@ export class EbbPosition {
   private microstepMode = 0;
   /** Home is where the machine's own switch is. */
   private isHomed = false;
+  /** When it was connected, an unfinished plot had moved the carriage last. */
+  isInPlot = false;
 
   constructor(
     private readonly connection: Connection,
@@ -48,9 +50,10 @@ export class EbbPosition {
 
   /** Whether a board that was connected again still counts from home, because it was not restarted. */
   async isKept(): Promise<boolean> {
-    const { mode, isHomed } = await this.mark.markedMode();
+    const { mode, isHomed, isInPlot } = await this.mark.read();
     this.microstepMode = mode;
     this.isHomed = isHomed;
+    this.isInPlot = isInPlot;
     return this.microstepMode !== 0;
   }
 

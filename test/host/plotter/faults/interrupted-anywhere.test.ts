@@ -17,6 +17,7 @@ import { InterruptiblePlot, type Resumption } from "../../../support/plots/inter
 import { seeded } from "../../../support/plots/live-plot.js";
 import { RETRACED_DRAWINGS } from "../../../support/drawings/retraced-drawings.js";
 import { sampleStrokes } from "../../../support/drawings/sample-strokes.js";
+import { HOPS, penSettings } from "../../../support/machines/flying-pens.js";
 import { inQuality, SPRINGS, swinging } from "../../../support/machines/swinging.js";
 import { virtualPlotter } from "../../../support/plots/virtual-plotter.js";
 
@@ -149,6 +150,22 @@ describe.each(["2.8.1", "3.0.3"])(
     });
   },
 );
+
+describe.each(["2.8.1", "3.0.3"])("a plot of short strokes on firmware %s", (firmware) => {
+  it.each(["off", "safe", "fast"] as const)(
+    "draws nothing twice after a kill until it is at home, with the pen's overlap %s",
+    async (overlap) => {
+      const plot = await InterruptiblePlot.begin(HOPS, penSettings(overlap), firmware);
+      const found: Resumption[] = [];
+      while (!plot.isDone) {
+        found.push(plot.killed());
+        await plot.advance(0.02);
+      }
+      expect(found.length).toBeGreaterThan(700);
+      expect(found.filter(({ missingMm }) => Math.abs(missingMm) > 0.05)).toEqual([]);
+    },
+  );
+});
 
 describe.each(["2.8.1", "3.0.3"])("a plot on firmware %s that is interrupted at any instant", (firmware) => {
   it.each(DRAWINGS)("leaves out nothing of %s", { timeout: 300_000 }, async (_, strokes) => {

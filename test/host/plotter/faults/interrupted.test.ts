@@ -221,3 +221,57 @@ it("a plot whose server is killed on a line that retraces itself resumes from th
     await world.run(Promise.all([again.cancel(), again.finished]));
   }
 });
+
+describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
+  /** A killed server writes nothing at its end; the board plays what it has, and is found again. */
+  async function killedOnLine(afterS: number) {
+    const { world, driver } = await virtualPlotter({ firmware });
+    const journal: JournalEntry[] = [];
+    const record = (entry: JournalEntry): void => void journal.push(entry);
+    const run = await world.run(
+      driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, { journal: { record } }),
+    );
+    await underWay(world, journal);
+    await world.advance(afterS);
+    virtualBoardOf(driver).unplug();
+    await world.run(run.finished.catch(() => undefined));
+    await world.advance(5);
+    const { place: from, received } = journal[journal.length - 1];
+    const holdPlace = async (): Promise<number> => {
+      const again = await world.run(
+        driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, { from, received }),
+      );
+      const place = again.holdPlace!;
+      await world.run(Promise.all([again.cancel(), again.finished]));
+      return mmOf(STRAIGHT, place);
+    };
+    const reconnect = async (): Promise<void> => {
+      virtualBoardOf(driver).unplug();
+      await world.advance(5);
+    };
+    return { world, driver, fromMm: mmOf(STRAIGHT, from), holdPlace, reconnect };
+  }
+
+  it("is that of the plot after it was found a second time", async () => {
+    const { fromMm, holdPlace, reconnect } = await killedOnLine(2);
+    await reconnect();
+    expect(await holdPlace()).toBeGreaterThan(fromMm + GAP_MM);
+  });
+
+  it("is not that of the plot after the carriage was moved by hand along its line", async () => {
+    const { world, driver, fromMm, holdPlace, reconnect } = await killedOnLine(2);
+    await world.run(driver.moveTo(10 + fromMm + 30, 10));
+    await reconnect();
+    expect(await holdPlace()).toBeCloseTo(fromMm, 6);
+  });
+
+  it("is not that of another plot that has ended since", async () => {
+    const { world, driver, fromMm, holdPlace, reconnect } = await killedOnLine(2);
+    const other = await world.run(
+      driver.plot(new LocalPlanner(strokesOf([5, 5, 9, 5])), DEFAULT_PLOT_SETTINGS),
+    );
+    await world.run(other.finished);
+    await reconnect();
+    expect(await holdPlace()).toBeCloseTo(fromMm, 6);
+  });
+});
