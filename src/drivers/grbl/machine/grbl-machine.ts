@@ -35,7 +35,7 @@ import {
 } from "../protocol.js";
 import { endLeft } from "./braking.js";
 import { sendTyped } from "./console.js";
-import { homeByMark, homeMark, type GrblMemory } from "./kept-home.js";
+import { homeByMark, homeMark, inPlotByMark, type GrblMemory } from "./kept-home.js";
 import { GrblPlayback } from "./grbl-playback.js";
 import { leftPen } from "./left-pen.js";
 import { LineStream } from "./line-stream.js";
@@ -67,6 +67,8 @@ export class GrblMachine implements Machine {
   private isLocked = false;
   /** It rests at an open door, and the place of the plot is known. */
   private isStoppedByDoor = false;
+  /** An unfinished plot moved the carriage last. */
+  private isInPlot = false;
   private byHand: LineStream | null = null;
   private readonly pen: GrblPen;
 
@@ -100,8 +102,9 @@ export class GrblMachine implements Machine {
   }
 
   get memory(): GrblMemory {
-    const { home, pen, foundMidPlot, isStoppedByDoor } = this;
-    return { home, penZeroMm: pen.zeroMm, foundMidPlot: isStoppedByDoor ? foundMidPlot : undefined };
+    const { home, pen, isStoppedByDoor, isInPlot } = this;
+    const foundMidPlot = isStoppedByDoor ? this.foundMidPlot : undefined;
+    return { home, penZeroMm: pen.zeroMm, foundMidPlot, isInPlot };
   }
 
   positionMm(profile: MachineProfile): { x: number; y: number } | null {
@@ -167,6 +170,9 @@ export class GrblMachine implements Machine {
   }
 
   async perform({ commands }: PlannedPlot, settings: MachineSettings): Promise<void> {
+    const { stopSignal } = this;
+    await this.noteInPlot(false);
+    stopSignal.throwIfAborted();
     const stream = this.stream(grblCommandsOf(commands), (state) => stream.slowDown(heldError(state)));
     this.byHand = stream;
     try {
@@ -178,6 +184,13 @@ export class GrblMachine implements Machine {
     } finally {
       this.byHand = null;
     }
+  }
+
+  /** Call before a plot moves the carriage, when it has ended, and before anything else moves it. */
+  async noteInPlot(isInPlot: boolean): Promise<void> {
+    if (isInPlot === this.isInPlot) return;
+    this.isInPlot = isInPlot;
+    await this.markHome();
   }
 
   /** Called after a job has been played to its end. */
@@ -334,7 +347,8 @@ export class GrblMachine implements Machine {
 
   /** Tells a later process where home is, as far as that is possible. */
   private markHome(): Promise<void> {
-    return this.session.attempt(homeMark(this.pen.zeroMm === null ? this.home : null, this.session.settings));
+    const { session, pen, home, isInPlot } = this;
+    return session.attempt(homeMark(pen.zeroMm === null ? home : null, isInPlot, session.settings));
   }
 
   private use(settings: MachineSettings): MachineProfile {
@@ -385,7 +399,8 @@ export class GrblMachine implements Machine {
     }
     const left = leftPen(lift, status.at[2], this.session.modes, settings.pen, before);
     const { foundMidPlot } = (before?.memory ?? {}) as Partial<GrblMemory>;
-    if (this.home) this.foundMidPlot = foundMidPlot === undefined ? { penUp: left.isUp } : foundMidPlot;
+    if (this.home && this.isInPlot)
+      this.foundMidPlot = foundMidPlot === undefined ? { penUp: left.isUp } : foundMidPlot;
     if (left.mustLift) await this.movePen(true, settings);
     else if (left.isUp) this.pen.setState(true);
   }
@@ -407,6 +422,7 @@ export class GrblMachine implements Machine {
     this.pen.zeroMm = memory?.penZeroMm ?? null;
     this.home = memory?.home ?? homeByMark(foundModes, status.machineAt, profile, settings);
     this.machineAt = status.machineAt;
+    this.isInPlot = memory?.isInPlot ?? inPlotByMark(foundModes);
     this.options.events.changed();
   }
 
@@ -414,6 +430,7 @@ export class GrblMachine implements Machine {
     const { machineAt } = await this.session.status();
     this.home = this.machineAt = machineAt;
     this.foundMidPlot = null;
+    this.isInPlot = false;
     await this.markHome();
     this.options.events.changed();
     return machineAt;

@@ -25,6 +25,8 @@ const LOST_MM = 2;
 interface GrblCarriage extends Pick<Machine, "penUp" | "movePen" | "positionMm" | "forgetPosition"> {
   /** Throws if the lines cannot be played. */
   stream(commands: GrblCommands): LineStream;
+  /** Whether an unfinished plot moves the carriage, for the next connection. */
+  noteInPlot(isInPlot: boolean): Promise<void>;
   /** Called after a job has been played to its end. */
   arrived(): Promise<void>;
   /**
@@ -96,6 +98,7 @@ export class GrblPlayback implements Playback {
     this.requested = null;
     this.isEmergency = false;
     this.receivedAtEnd = undefined;
+    await machine.noteInPlot(true);
     // `fail` may have been called while the pen was lifted.
     if (this.failure) throw this.failure;
     const commands = grblCommandsOf(plot.commands);
@@ -108,6 +111,7 @@ export class GrblPlayback implements Playback {
     try {
       await played;
       await machine.arrived();
+      await machine.noteInPlot(false);
       this.events.progressed(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
       left = progress.place;
     } catch (error) {

@@ -5,12 +5,14 @@
 import { describe, expect, it } from "vitest";
 import type { JournalEntry, RunningPlot } from "../../../../host/plotter/plotter-port.js";
 import type { VirtualGrblOptions } from "../../../../src/drivers/grbl/virtual/virtual-settings.js";
+import { pointAt } from "../../../../src/internal.js";
 import type { PlotSettings } from "../../../../src/schema/index.js";
+import type { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { compareDrawn } from "../../../support/drawings/drawn-truth.js";
 import { FAULT_DRAWING } from "../../../support/plots/faulty-plots.js";
 import { newPlotter, plotterOn, SETTINGS } from "../../../support/plots/grbl-plotter.js";
 import { seeded } from "../../../support/plots/live-plot.js";
-import { layeredStrokes, LocalPlanner } from "../../../support/plots/local-planner.js";
+import { layeredStrokes, LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js";
 import { cases } from "../../../support/runs/full-run.js";
 
 const MOST_MM = 0.05;
@@ -125,6 +127,53 @@ describe.each(FACES)("a plot on $face", (options) => {
     expect(overlapMm).toBeLessThan(MOST_MM);
     expect(awayMm).toBeLessThan(MOST_MM);
     expect(holdCount).toBeGreaterThan(5);
+  });
+});
+
+describe("the place of a Grbl", () => {
+  const LINE = strokesOf([10, 10, 200, 10], [200, 20, 10, 90]);
+
+  /** It stopped on the first line. `meanwhile`: what the next process does before it ends too. */
+  async function killedOnLine(
+    meanwhile: (next: Awaited<ReturnType<typeof plotterOn>>, world: ManualClock) => unknown,
+  ): Promise<{ fromMm: number; resumedMm: number }> {
+    const { world, board, ...first } = await newPlotter();
+    const journal: JournalEntry[] = [];
+    const record = (entry: JournalEntry): void => void journal.push(entry);
+    await first.begin(new LocalPlanner(LINE), { journal: { record } });
+    await world.advance(2.5);
+    const { place: from, received } = journal.at(-1)!;
+    expect(from.stroke).toBe(0);
+    first.kill();
+    await world.advance(REST_S);
+    const second = await plotterOn(board, world);
+    await meanwhile(second, world);
+    second.kill();
+    const third = await plotterOn(board, world);
+    const resumed = await third.begin(new LocalPlanner(LINE), { from, received });
+    return { fromMm: from.alongMm, resumedMm: resumed.holdPlace!.alongMm };
+  }
+
+  it("is that of the plot after it was found a second time", async () => {
+    const { fromMm, resumedMm } = await killedOnLine(() => undefined);
+    expect(resumedMm).toBeGreaterThan(fromMm + MOST_MM);
+  });
+
+  it("is not that of the plot after the carriage was moved by hand to a later line", async () => {
+    const { x, y } = pointAt(LINE, { stroke: 1, alongMm: 30 });
+    const { fromMm, resumedMm } = await killedOnLine((next, world) =>
+      world.run(next.driver.move({ kind: "move-to", xMm: x, yMm: y })),
+    );
+    expect(resumedMm).toBeCloseTo(fromMm, 6);
+  });
+
+  it("is not that of another plot that was cancelled since", async () => {
+    const { fromMm, resumedMm } = await killedOnLine(async (next, world) => {
+      const other = await next.begin(new LocalPlanner(strokesOf([5, 5, 90, 5])));
+      await world.run(other.cancel());
+      await world.run(other.finished);
+    });
+    expect(resumedMm).toBeCloseTo(fromMm, 6);
   });
 });
 
