@@ -30,6 +30,7 @@ import { plotterText, presetsText } from "../plotter/text.js";
 import { isFirstPlot } from "../plotter/hand/pen-at-hand.js";
 import type { PanelName } from "../state/persist.js";
 import type { PageState } from "../state/store.js";
+import { isUsed } from "../state/used-settings.js";
 import { searchText as words } from "./text.js";
 
 /** A place in a panel: the panel itself, or a folded group of settings in it. */
@@ -61,6 +62,8 @@ export interface Field {
   instead?(state: PageState): FieldLocation | null;
   /** Why the field can't be used now; null: it can. Left out: it always can. */
   whyOff?(state: PageState): string | null;
+  /** The path of the setting without which the page does not show the field. Left out: every plotter has it. */
+  readonly uses?: string;
 }
 
 const panel = (name: PanelName, groups: readonly string[], ...titles: readonly string[]): Panel => ({
@@ -86,7 +89,7 @@ const PANELS = {
   plotter: panel("plotter", ["plotter"], plotterText.rest, plotterText.more),
 } as const satisfies Record<string, Panel>;
 
-type Named = Pick<Field, "label"> & Partial<Pick<Field, "id" | "words" | "instead" | "whyOff">>;
+type Named = Pick<Field, "label"> & Partial<Pick<Field, "id" | "words" | "instead" | "whyOff" | "uses">>;
 type PlaceName = keyof typeof PANELS;
 
 const field = (where: PlaceName, { label, id, words = "", ...rest }: Named, legend?: string): Field => ({
@@ -183,7 +186,9 @@ const LINES: readonly Field[] = [
   row("fill", PREPARE_TABLE.hideCovered),
 ];
 
-const LIMITS = ["speedMmPerS", "accelMmPerS2", "cornerMm"] as const;
+/** Only where the motion is planned here, not by the controller. */
+const ifPlannedHere = { uses: "motion.mode" };
+const ifFits = { uses: "motion.fit.toleranceMm" };
 const isSoft = ({ settings }: PageState): boolean => settings.motion.mode === "scurve";
 const cornerRule = at("details", MOTION_TABLE.mode.label);
 const ease = unless(({ settings }) => Boolean(settings.motion.ease), at("details", detailsText.ease));
@@ -193,49 +198,76 @@ const eased = (setting: Setting, label: string): Field => ({
   label,
 });
 const MOTION: readonly Field[] = [
-  ...LIMITS.map((key) => row("details", DRAW_TABLE[key], { id: `draw ${key}` }, detailsText.drawing)),
-  ...(["speedMmPerS", "accelMmPerS2"] as const).map((key) =>
-    row("details", TRAVEL_TABLE[key], { id: `travel ${key}`, words: "pen up" }, detailsText.travelling),
+  row("details", DRAW_TABLE.speedMmPerS, { id: "draw speedMmPerS" }, detailsText.drawing),
+  ...(["accelMmPerS2", "cornerMm"] as const).map((key) =>
+    row("details", DRAW_TABLE[key], { id: `draw ${key}`, ...ifPlannedHere }, detailsText.drawing),
   ),
-  row("details", DRAW_TABLE.jerkMmPerS3, { instead: unless(isSoft, cornerRule) }, detailsText.drawing),
+  row(
+    "details",
+    TRAVEL_TABLE.speedMmPerS,
+    { id: "travel speedMmPerS", words: "pen up" },
+    detailsText.travelling,
+  ),
+  row(
+    "details",
+    TRAVEL_TABLE.accelMmPerS2,
+    { id: "travel accelMmPerS2", words: "pen up", ...ifPlannedHere },
+    detailsText.travelling,
+  ),
+  row(
+    "details",
+    DRAW_TABLE.jerkMmPerS3,
+    { instead: unless(isSoft, cornerRule), ...ifPlannedHere },
+    detailsText.drawing,
+  ),
   row(
     "details",
     TRAVEL_TABLE.jerkMmPerS3,
-    { id: "travel jerk", words: "pen up", instead: unless(isSoft, cornerRule) },
+    { id: "travel jerk", words: "pen up", instead: unless(isSoft, cornerRule), ...ifPlannedHere },
     detailsText.travelling,
   ),
-  field("motion", { label: motionText.quality, words: "fine, normal, fast, precise, exact" }),
-  ...Object.values<Setting>(AXIS_TABLE).map((setting) => row("details", setting)),
+  field("motion", {
+    label: motionText.quality,
+    words: "fine, normal, fast, precise, exact",
+    ...ifPlannedHere,
+  }),
+  ...Object.values<Setting>(AXIS_TABLE).map((setting) => row("details", setting, ifPlannedHere)),
   row("details", MOTION_TABLE.shaper, {
+    uses: "motion.shaper",
     whyOff: ({ settings }) => (findMachine(settings)?.springs ? null : words.needsMeasured),
   }),
-  row("details", MOTION_TABLE.mode),
+  row("details", MOTION_TABLE.mode, ifPlannedHere),
   field("details", { label: detailsText.ease, words: "slow in, slow out, ease, ink start" }),
   eased(EASE_TABLE.lengthMm, words.easeLength),
   eased(EASE_TABLE.speedMmPerS, words.easeSpeed),
-  field("details", { label: detailsText.fit, words: "merge commands, stutter, smooth" }),
+  field("details", { label: detailsText.fit, words: "merge commands, stutter, smooth", ...ifFits }),
   row("details", FIT_TABLE.toleranceMm, {
     instead: unless(({ settings }) => Boolean(settings.motion.fit), at("details", detailsText.fit)),
+    ...ifFits,
   }),
   row("details", STREAM_TABLE.sendAheadMs),
 ];
 
 const overlaps = ({ settings }: PageState): boolean => settings.pen.overlap !== "off";
+const ifOverlaps = { uses: "pen.overlap" };
+const ifGentle = { uses: "pen.dropPctPerS" };
 const overlapPlace = at("pen", OVERLAP_TABLE.overlap.label);
 const PEN: readonly Field[] = [
   row("hand", PEN_TABLE.upPct),
   row("hand", PEN_TABLE.downPct),
   row("hand", OVERLAP_TABLE.contactPct, {
     instead: unless((state) => overlaps(state) && !isFirstPlot(state), overlapPlace),
+    ...ifOverlaps,
   }),
   row("pen", PEN_TABLE.extraLiftMs),
   row("pen", PEN_TABLE.extraDropMs),
-  field("pen", { label: heightsText.gentle, words: DROP_RATE.words }),
+  field("pen", { label: heightsText.gentle, words: DROP_RATE.words, ...ifGentle }),
   row("pen", DROP_RATE, {
     instead: unless(({ settings }) => Boolean(settings.pen.dropPctPerS), at("pen", heightsText.gentle)),
+    ...ifGentle,
   }),
-  row("pen", OVERLAP_TABLE.overlap),
-  row("pen", OVERLAP_TABLE.fullHeightMm, { instead: unless(overlaps, overlapPlace) }),
+  row("pen", OVERLAP_TABLE.overlap, ifOverlaps),
+  row("pen", OVERLAP_TABLE.fullHeightMm, { instead: unless(overlaps, overlapPlace), ...ifOverlaps }),
 ];
 
 const OTHER: readonly Field[] = [
@@ -245,7 +277,10 @@ const OTHER: readonly Field[] = [
     words: "pen change, pause between layers, stop",
     whyOff: ({ settings }) => (settings.pens.length > 0 ? null : words.needsPens),
   }),
-  field("plotter", { label: plotterText.model, words: "machine, axidraw, nextdraw, size of the plotter" }),
+  field("plotter", {
+    label: plotterText.model,
+    words: "machine, axidraw, nextdraw, idraw, grbl, size of the plotter",
+  }),
 ];
 
 const HEADINGS: readonly (readonly [PlaceName, string])[] = [
@@ -263,7 +298,7 @@ const HEADINGS: readonly (readonly [PlaceName, string])[] = [
   ["plotter", "firmware, version, where is the pen"],
 ];
 
-/** In the order of results that fit equally well. */
+/** Of all plotters, in the order of results that fit equally well. */
 export const FIELDS: readonly Field[] = [
   ...PEN,
   ...MOTION,
@@ -281,3 +316,7 @@ export const FIELDS: readonly Field[] = [
     };
   }),
 ];
+
+/** The fields that the page has for the chosen plotter. */
+export const fieldsFor = (state: PageState): readonly Field[] =>
+  FIELDS.filter(({ uses }) => uses === undefined || isUsed(state, uses));

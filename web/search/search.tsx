@@ -5,7 +5,7 @@ import { maySubmit } from "../state/store.js";
 import { usePage, usePageState } from "../state/use-store.js";
 import { Dialog } from "../ui/dialog.js";
 import { Icon } from "../ui/icon.js";
-import { FIELDS } from "./fields.js";
+import { fieldsFor } from "./fields.js";
 import { goToField } from "./focus-field.js";
 import { DRAW } from "../watch/draw-action.js";
 import { searchText as words } from "./text.js";
@@ -41,7 +41,7 @@ const actionEntries = (actions: readonly PageAction[], page: Page): readonly Ent
 const fieldEntries = (page: Page): readonly Entry[] => {
   const state = page.store.getState();
   if (!maySubmit(state)) return [];
-  return FIELDS.map((field) => {
+  return fieldsFor(state).map((field) => {
     const { panel, legend, control } = field.place;
     const titles = control === null ? panel.titles.slice(0, -1) : panel.titles;
     return {
