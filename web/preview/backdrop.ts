@@ -65,6 +65,7 @@ export const drawBackdrop = (
   view: View,
   desk: Desk,
   colors: DeskColors,
+  heightPx: number,
 ): void => {
   const sheet = sidesOf(screenBox(view, boxOfSize(desk.paperMm)));
   context.save();
@@ -82,7 +83,7 @@ export const drawBackdrop = (
   context.restore();
   drawGrid(context, view, desk, colors);
   drawMargin(context, view, desk, colors);
-  drawReach(context, view, desk, colors);
+  drawReach(context, view, desk, colors, heightPx);
   drawHome(context, view, colors);
 };
 
@@ -137,11 +138,20 @@ const drawMargin = (context: CanvasRenderingContext2D, view: View, desk: Desk, c
 
 /** A smaller sheet than this has no room for words that only confirm. */
 const MIN_LABEL_PX = 340;
-/** From the line to the words above it. */
+/** From the line to the words below it, or above it if there is no room below. */
 const REACH_GAP_PX = 5;
+/** Of the words, above and below their base line. */
+const ASCENT_PX = 9;
+const DESCENT_PX = 4;
 
 /** Faint if the machine reaches all of the paper. Otherwise the part that it can't reach is shaded. */
-const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, colors: DeskColors): void => {
+const drawReach = (
+  context: CanvasRenderingContext2D,
+  view: View,
+  desk: Desk,
+  colors: DeskColors,
+  heightPx: number,
+): void => {
   const { reach, paperMm } = desk;
   if (!reach) return;
   const box = screenBox(view, boxOfSize(reach));
@@ -159,11 +169,13 @@ const drawReach = (context: CanvasRenderingContext2D, view: View, desk: Desk, co
   // On a small picture of the sheet the words would hide more than they say.
   if (Math.min(box.x1, paper.x1) - Math.max(box.x0, paper.x0) < MIN_LABEL_PX) return context.restore();
   context.font = DESK_FONT;
-  // Below the lower edge, and not beyond the paper's sides, so that it is visible; the lower right corner may be home.
+  // Not beyond the paper's sides, so that it is visible; the lower right corner may be home.
   const isLeft = view.turn === 2;
   context.textAlign = isLeft ? "left" : "right";
   const x = isLeft ? Math.max(box.x0, paper.x0) : Math.min(box.x1, paper.x1);
-  context.fillText(reach.label, x, box.y1 + REACH_GAP_PX + 9);
+  const below = box.y1 + REACH_GAP_PX + ASCENT_PX;
+  const hasRoom = below + DESCENT_PX <= heightPx;
+  context.fillText(reach.label, x, hasRoom ? below : box.y1 - REACH_GAP_PX);
   context.restore();
 };
 

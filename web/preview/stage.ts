@@ -273,7 +273,8 @@ export class Stage {
     const { desk, overlay } = this.canvases;
     this.areSheetsStale = false;
     const deskContext = beginCanvas(desk, this.cssSize, ratio);
-    if (deskContext) drawBackdrop(deskContext, this.currentView, this.shownDesk, this.colors);
+    if (deskContext)
+      drawBackdrop(deskContext, this.currentView, this.shownDesk, this.colors, this.cssSize.height);
     const overlayContext = beginCanvas(overlay, this.cssSize, ratio);
     if (overlayContext) {
       this.paint?.(overlayContext, this.currentView);

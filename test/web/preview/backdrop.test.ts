@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 import { drawBackdrop, type Desk, type DeskColors } from "../../../web/preview/backdrop.js";
 
 /** Records only texts, their places, and filled boxes. */
-function drawn(sheet: Omit<Desk, "turn">, turn = 0) {
+function drawn(sheet: Omit<Desk, "turn">, turn = 0, heightPx = 2000) {
   const words: string[] = [];
   const places: { y: number; align: CanvasTextAlign }[] = [];
   let align: CanvasTextAlign = "left";
@@ -24,7 +24,7 @@ function drawn(sheet: Omit<Desk, "turn">, turn = 0) {
     },
   });
   const desk = { ...sheet, turn };
-  drawBackdrop(context, { scale: 2, offsetX: 10, offsetY: 20, turn }, desk, {} as DeskColors);
+  drawBackdrop(context, { scale: 2, offsetX: 10, offsetY: 20, turn }, desk, {} as DeskColors, heightPx);
   return { words, fills, places };
 }
 
@@ -67,6 +67,16 @@ describe("the machine's reach under the drawing", () => {
     expect(within.words).toEqual([reach.label]);
     const beyond = drawn({ paperMm: { width: 420, height: 297 }, margins, reach, unitMm: 25.4 });
     expect(beyond.words).toEqual([reach.label]);
+  });
+
+  it("has its label whole, above its edge where there is no room below", () => {
+    const desk = { paperMm: { width: 297, height: 210 }, margins, reach, unitMm: 1 };
+    const edge = 20 + 2 * reach.height;
+    for (const roomPx of [30, 10]) {
+      const [{ y }] = drawn(desk, 0, edge + roomPx).places;
+      expect([roomPx, y > edge]).toEqual([roomPx, roomPx === 30]);
+      expect(y).toBeLessThanOrEqual(edge + roomPx - 4);
+    }
   });
 
   it("shades the part of the paper beyond it", () => {
