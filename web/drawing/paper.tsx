@@ -178,6 +178,7 @@ export const PaperPanel = () => {
         )}
         <Select
           label={PREPARE_TABLE.outside.label}
+          isBelow
           value={prepare.outside}
           options={(isSheet ? ON_SHEET : PREPARE_TABLE.outside.choices).map((value) => ({
             value,

@@ -20,6 +20,18 @@ describe("the page's fields", () => {
     expect(await samples.inputValue()).toBe("");
   });
 
+  it("have a label in one line also beside long options", async () => {
+    await test.panel("Paper");
+    await test.page.getByRole("button", { name: "Separate margins, mirror, cutting" }).click();
+    const label = test.page.getByText("What lies outside the paper", { exact: true });
+    const lines = await label.evaluate((element) => {
+      const range = document.createRange();
+      range.selectNodeContents(element);
+      return range.getClientRects().length;
+    });
+    expect(lines).toBe(1);
+  });
+
   it("show a plotter's port again when the server refuses another one", async () => {
     const { page } = test;
     await page.getByRole("button", { name: "Sharing, plotters, camera" }).click();

@@ -81,12 +81,24 @@ export const Segments = <T extends string>({
 };
 
 /** One of many choices: the system's own list. */
-export const Select = <T extends string>({ label, value, options, hint, onChange }: ChoiceProps<T>) => {
+interface SelectProps<T extends string> extends ChoiceProps<T> {
+  /** The options are long: they are below the label, not beside it. */
+  readonly isBelow?: boolean;
+}
+
+export const Select = <T extends string>({
+  label,
+  value,
+  options,
+  hint,
+  isBelow,
+  onChange,
+}: SelectProps<T>) => {
   const id = useId();
   const help = useHint(label, `${id}-note`, hint);
   const choose = useShownAgain(onChange);
   return (
-    <div className="field">
+    <div className="field" data-below={isBelow}>
       <span className="field-label">
         <label htmlFor={id}>{label}</label>
         {help.button}
