@@ -52,7 +52,7 @@ export class Carriage {
       position.motorsOn = true;
     }
     // The place of a carriage that was moved since the plot, also by another program, says nothing about the plot.
-    if (position.state && isOurs && position.isInPlot) position.foundMidPlot = { penUp };
+    if (position.state && isOurs && (await position.mark.isInPlot())) position.foundMidPlot = { penUp };
   }
 
   /** Switches the motors on if they are off. Fails if the position was lost while the board was at rest. */

@@ -1,6 +1,7 @@
 /**
- * The mark that shows whether the board's step counters mean anything, and whether an unfinished plot moved the carriage
- * last. It is in the board's layer variable, which is 0 after each start of the board.
+ * What the board itself keeps about its position, for the next connection. Its layer variable is the mark that shows
+ * whether its step counters mean anything. Its node counter shows whether an unfinished plot moved the carriage last. Both
+ * are 0 after each start of the board.
  */
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import type { BoardSession } from "../stream/session.js";
@@ -9,27 +10,17 @@ import type { BoardSession } from "../stream/session.js";
 const HOMED_VARIABLE = 12;
 /** The mark while the counters count from home is this plus the microstep mode. */
 const POSITION_KNOWN = 112;
-/** The same from the beginning of a plot until it ends at home, or something else moves the carriage. */
-const IN_PLOT = 120;
 /** The mark while they do not count from home. */
 const SWITCHED_ON = 1;
 const COARSEST_MODE = 5;
+/** The node counter from the beginning of a plot until it ends at home, or something else moves the carriage. */
+const IN_PLOT = 119;
 /** Time for the motion that may block the board's parser, s. */
 const MOTION_S = 2;
-
-/** What the mark says: the microstep mode if the counters count from home, otherwise 0. */
-interface Marked {
-  readonly mode: number;
-  /** The home that a switch has found. */
-  readonly isHomed: boolean;
-  readonly isInPlot: boolean;
-}
 
 export class PositionMarker {
   /** The query that returns the mark. */
   readonly query: string;
-  /** As the board has it. */
-  private value = 0;
 
   constructor(
     private readonly session: BoardSession,
@@ -39,26 +30,24 @@ export class PositionMarker {
   }
 
   /**
-   * Reads the mark. Before firmware 2.7, a stop has to zero the counters, so they do not always count from home.
+   * The microstep mode, if the counters still count from home; otherwise 0. Before firmware 2.7, a stop has to zero the
+   * counters, so they do not always count from home. `isHomed`: the home that a switch has found.
    */
-  async read(): Promise<Marked> {
+  async markedMode(): Promise<{ readonly mode: number; readonly isHomed: boolean }> {
     const { session, features } = this;
-    const none = { mode: 0, isHomed: false, isInPlot: false };
+    const none = { mode: 0, isHomed: false };
     if (!features.hasClear) return none;
     // A board that has restarted has its motors off (QE: from 2.8.0).
     const [divisor1 = 0, divisor2 = 0] = features.enableIsQueued
       ? (await session.query("QE")).split(",").map(Number)
       : [];
     if (features.enableIsQueued && divisor1 === 0 && divisor2 === 0) return none;
-    this.value = Number(await session.query(this.query));
-    const isInPlot = this.value > IN_PLOT;
     if (features.hasFutureSyntax && Number(await session.query(`QL,${HOMED_VARIABLE}`)) === 1) {
       // With one motor off, the carriage may have been moved.
-      const mode = COARSEST_MODE - Math.log2(divisor1);
-      return divisor1 === divisor2 ? { mode, isHomed: true, isInPlot } : none;
+      return divisor1 === divisor2 ? { mode: COARSEST_MODE - Math.log2(divisor1), isHomed: true } : none;
     }
-    const mode = this.value - (isInPlot ? IN_PLOT : POSITION_KNOWN);
-    return mode >= 1 && mode <= COARSEST_MODE ? { mode, isHomed: false, isInPlot } : none;
+    const mode = Number(await session.query(this.query)) - POSITION_KNOWN;
+    return mode >= 1 && mode <= COARSEST_MODE ? { mode, isHomed: false } : none;
   }
 
   /**
@@ -70,17 +59,6 @@ export class PositionMarker {
     await this.writeHomed(isFromHome && isHomed);
   }
 
-  /**
-   * Call before a plot moves the carriage, when it has ended, and before anything else moves it. Does not wait for the
-   * reply, so that motion begins at once. Without this mark, more is drawn twice after an interruption.
-   */
-  noteInPlot(isInPlot: boolean): void {
-    const { value } = this;
-    if (value <= SWITCHED_ON || isInPlot === value > IN_PLOT) return;
-    this.value = isInPlot ? value + IN_PLOT - POSITION_KNOWN : value - IN_PLOT + POSITION_KNOWN;
-    this.session.write([{ line: this.lineOf(this.value) }]);
-  }
-
   /** Call when the position is lost. */
   async clear(): Promise<void> {
     await this.write(0);
@@ -90,6 +68,19 @@ export class PositionMarker {
   /** Call when another program has used the board since: it may have zeroed the counters. What it found itself remains. */
   async forgetOwn(): Promise<void> {
     await this.write(0);
+  }
+
+  /**
+   * Call before a plot moves the carriage, when it has ended, and before anything else moves it. Does not wait for the
+   * reply, so that motion begins at once. Without this note, more is drawn twice after an interruption.
+   */
+  noteInPlot(isInPlot: boolean): void {
+    if (this.features.hasStepQuery) this.session.write([{ line: `SN,${isInPlot ? IN_PLOT : 0}` }]);
+  }
+
+  /** Whether an unfinished plot moved the carriage last. */
+  async isInPlot(): Promise<boolean> {
+    return this.features.hasStepQuery && Number(await this.session.query("QN")) === IN_PLOT;
   }
 
   /** Whether the board has restarted since `set`. Asks twice: a single unexpected reply may belong to another query. */
@@ -104,11 +95,7 @@ export class PositionMarker {
   }
 
   private async write(value: number): Promise<void> {
-    if (!this.features.hasStepQuery) return;
-    this.value = value;
-    await this.session.send(this.lineOf(value));
-  }
-  private lineOf(value: number): string {
-    return this.features.hasFutureSyntax ? `SL,${value},0` : `SL,${value}`;
+    const { session, features } = this;
+    if (features.hasStepQuery) await session.send(features.hasFutureSyntax ? `SL,${value},0` : `SL,${value}`);
   }
 }

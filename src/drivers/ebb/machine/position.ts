@@ -32,8 +32,6 @@ export class EbbPosition {
   private microstepMode = 0;
   /** Home is where the machine's own switch is. */
   private isHomed = false;
-  /** When it was connected, an unfinished plot had moved the carriage last. */
-  isInPlot = false;
 
   constructor(
     private readonly connection: Connection,
@@ -50,10 +48,9 @@ export class EbbPosition {
 
   /** Whether a board that was connected again still counts from home, because it was not restarted. */
   async isKept(): Promise<boolean> {
-    const { mode, isHomed, isInPlot } = await this.mark.read();
+    const { mode, isHomed } = await this.mark.markedMode();
     this.microstepMode = mode;
     this.isHomed = isHomed;
-    this.isInPlot = isInPlot;
     return this.microstepMode !== 0;
   }
 
