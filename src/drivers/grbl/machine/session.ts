@@ -70,6 +70,8 @@ const IDENTIFY_TRIES = 4;
 const IDENTIFY_S = 1;
 /** How long a Grbl may take for what is in its buffers, s. */
 const FINISH_S = 60;
+/** How long a device may talk while it starts, s. Later it is no Grbl if it has not reported its status. */
+const START_S = 3;
 /** The longest search for switches, s. */
 const HOMING_S = 180;
 /** Time for braking, and for the greeting after a reset. */
@@ -175,16 +177,16 @@ export class GrblSession implements LineProtocol {
     const { clock, log } = this;
     let isAnswered = false;
     void answered.then(() => (isAnswered = true));
-    const untilS = clock.nowS() + FINISH_S;
-    let quietSinceS = clock.nowS();
-    while (clock.nowS() < untilS && clock.nowS() - quietSinceS < IDENTIFY_S) {
+    const startS = clock.nowS();
+    let quietSinceS = startS;
+    while (clock.nowS() < startS + FINISH_S && clock.nowS() - quietSinceS < IDENTIFY_S) {
       const { count } = log;
       this.now(NOW.status);
       await Promise.race([delay(clock, POLL_S), ...(isAnswered ? [] : [answered])]);
-      if (isAnswered && this.version !== null && !isAgain && clock.nowS() < untilS - FINISH_S + POLL_S)
-        return;
+      if (isAnswered && this.version !== null && !isAgain && clock.nowS() < startS + POLL_S) return;
+      const isGrbl = this.lastStatus !== null || clock.nowS() < startS + START_S;
       const isBusy = log.count > count || (this.lastStatus !== null && isMoving(this.lastStatus.state));
-      if (isBusy && !isAgain) quietSinceS = clock.nowS();
+      if (isGrbl && isBusy && !isAgain) quietSinceS = clock.nowS();
     }
   }
 
@@ -432,8 +434,7 @@ export class GrblSession implements LineProtocol {
   }
 
   silent(): void {
-    const { first } = this.sent;
-    if (first) this.lines.fail(silent(first.line));
+    if (this.sent.first) this.lines.fail(silent(this.sent.first.line));
   }
 
   ended(error: PlotwrightError): void {
