@@ -103,10 +103,7 @@ function fileLines(
   { lines, layerAt }: GrblCommands,
   linesBefore: (layer: StrokeLayer, isAt: string) => readonly string[],
 ): string[] {
-  const about = [
-    comment(`For ${machine.name}: about ${Math.ceil(totalS / 60)} min. Begins with the pen up, at home.`),
-    MODES,
-  ];
+  const about = [comment(`For ${machine.name}: about ${Math.ceil(totalS / 60)} min. Begins at home.`), MODES];
   let isAt = "G1X0Y0";
   return about.concat(
     lines.flatMap((line, i) => {

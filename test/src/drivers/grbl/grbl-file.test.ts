@@ -1,6 +1,6 @@
 /** G-code for other senders: what is said before each layer, and where it waits for another pen. */
 import { describe, expect, it } from "vitest";
-import { planJob, type StrokeSet } from "../../../../src/index.js";
+import { MACHINES, planJob, type StrokeSet } from "../../../../src/index.js";
 import type { PenSetup } from "../../../../src/internal.js";
 import { GRBL } from "../../../support/machines/machine.js";
 
@@ -95,6 +95,13 @@ describe("the G-code of a drawing with several pens", () => {
 });
 
 describe("the G-code of a drawing with one pen", () => {
+  const GRBLS = MACHINES.filter(({ controller }) => controller?.kind === "grbl");
+
+  it.each(GRBLS)("says for which plotter it is, and where it begins: $id", (machine) => {
+    const [head] = planJob({ strokes: STROKES }, {}, machine).lines();
+    expect(head).toBe(`; For ${machine.name}: about 1 min. Begins at home.`);
+  });
+
   it("has no waits", () => {
     expect(saidIn(linesWith({}))).toEqual([
       "; Layer sky, #0000ff: pen down at 30 %, up at 60 %",
