@@ -220,16 +220,43 @@ const ALARMS: Readonly<Record<number, string>> = {
   14: "it must be homed first",
 };
 
-/** `findsHome`: the machine finds home by itself. */
-export const alarm = (code: number | null, findsHome: boolean): PlotwrightError =>
+/** Version 0.9 has words in place of numbers, and these for all that ends a search for switches. */
+const OLD_HOMING_ALARM = "Homing fail";
+const OLD_ALARMS: Readonly<Record<string, number>> = {
+  "Hard limit": 1,
+  "Soft limit": 2,
+  "Abort during cycle": 3,
+  "Probe fail": 5,
+  [OLD_HOMING_ALARM]: 9,
+};
+/** Reported by a reset during motion, or in a search for switches. */
+const RESET_ALARMS: readonly (number | null)[] = [3, 6];
+
+export interface Alarm {
+  /** Null: unknown. */
+  readonly code: number | null;
+  /** A reset may be its cause. */
+  readonly isReset: boolean;
+}
+
+/** The alarm that a line reports; null for another line. */
+export function alarmOf(line: string): Alarm | null {
+  const words = /^ALARM: ?(.*)/.exec(line)?.[1];
+  if (words === undefined) return null;
+  const code = OLD_ALARMS[words] ?? (Number.parseInt(words) || null);
+  return { code, isReset: words === OLD_HOMING_ALARM || RESET_ALARMS.includes(code) };
+}
+
+/** `findsHome`: the machine finds home by itself. `name`: what the Grbl calls the alarm. */
+export const alarm = (code: number | null, findsHome: boolean, name = `ALARM:${code}`): PlotwrightError =>
   new PlotwrightError(
     "board-error",
-    `The Grbl has stopped with ${named(code)}. Check the carriage's position: ${homeAgain(findsHome)}.`,
+    `The Grbl has stopped with ${named(code, name)}. Check the carriage's position: ${homeAgain(findsHome)}.`,
   );
 
-function named(code: number | null): string {
+function named(code: number | null, name: string): string {
   if (code === null) return "an alarm";
-  return `ALARM:${code}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}`;
+  return `${name}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}`;
 }
 
 export const boardRestartedError = (findsHome: boolean): PlotwrightError =>

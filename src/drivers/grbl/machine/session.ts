@@ -16,6 +16,7 @@ import { SYNC } from "../grbl-job.js";
 import { QUEUE_MOVES, type Axes } from "../model/planner.js";
 import {
   alarm,
+  alarmOf,
   buffersOf,
   CHECK,
   heldError,
@@ -63,8 +64,6 @@ const SLOW_S = 30;
 const REFUSED_TRIES = 10;
 const OFFSET_TRIES = 35;
 const POLL_S = 0.2;
-/** Reported by a reset during motion, or in a search for switches. */
-const RESET_ALARMS: readonly (number | null)[] = [3, 6];
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
 const IDENTIFY_TRIES = 4;
 const IDENTIFY_S = 1;
@@ -333,7 +332,7 @@ export class GrblSession implements LineProtocol {
     this.takeVersion(versionAfter(line, this.version));
     this.buffers = buffersOf(line) ?? this.buffers;
     this.settings.take(line);
-    const alarmed = /^ALARM: ?(\d*)/.exec(line);
+    const alarmed = alarmOf(line);
     if (line === "ok") this.settleFirst(null);
     // Old versions write words instead of a number.
     else if (line.startsWith("error:")) this.settleFirst(line);
@@ -342,12 +341,11 @@ export class GrblSession implements LineProtocol {
       this.foundModes ||= line;
       this.checkReported();
     } else if (alarmed) {
-      const code = alarmed[1] === "" ? null : Number(alarmed[1]);
-      const isReset = RESET_ALARMS.includes(code) || line.includes("Abort during cycle");
+      const { code, isReset } = alarmed;
       const isOurs = isReset && this.greetingWaiters.length > 0;
       this.isLockOurs ||= isOurs;
       this.isGreetingDue = isReset && !isOurs;
-      if (!isOurs) this.broken(alarm(code, this.findsHome));
+      if (!isOurs) this.broken(alarm(code, this.findsHome, line));
     } else if (isGreeting(line) && this.isGreetingDue) this.isGreetingDue = false;
     else if (isGreeting(line)) {
       const waiters = this.greetingWaiters.splice(0);

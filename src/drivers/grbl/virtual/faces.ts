@@ -30,6 +30,8 @@ export interface Face {
   /** A refused line and an alarm; version 0.9 uses words. */
   error(code: number): string;
   alarm(code: number): string;
+  /** What it says besides. */
+  message(words: string): string;
   /** After a refused line it refuses all G-code with the same error up to an empty line or a reset. */
   readonly refusesOn: boolean;
   /** It reports its state also while it seeks its switches. */
@@ -50,6 +52,7 @@ const ARDUINO: Face = {
     `<${state}|MPos:${machineAt}|Bf:${free}|FS:${feed},0${offset === null ? "" : `|WCO:${offset}`}>`,
   error: (code) => `error:${code}`,
   alarm: (code) => `ALARM:${code}`,
+  message: (words) => `[MSG:${words}]`,
   refusesOn: false,
   reportsHoming: false,
   doorResuming: 3,
@@ -61,6 +64,7 @@ const OLD_ALARMS: Readonly<Record<number, string>> = {
   1: "Hard limit",
   2: "Soft limit",
   3: "Abort during cycle",
+  5: "Probe fail",
 };
 const HAL_QUEUE = 100;
 const HAL_RX_BYTES = 1_024;
@@ -82,7 +86,8 @@ const TABLE: Readonly<Record<FaceName, Face>> = {
     modes: (words) => `[${words}]`,
     report: ({ state, machineAt, workAt }) => `<${state.split(":")[0]},MPos:${machineAt},WPos:${workAt}>`,
     error: (code) => `error: ${OLD_ERRORS[code] ?? `Invalid gcode ID:${code}`}`,
-    alarm: (code) => `ALARM: ${OLD_ALARMS[code] ?? "Probe fail"}`,
+    alarm: (code) => `ALARM: ${OLD_ALARMS[code] ?? "Homing fail"}`,
+    message: (words) => `[${words}]`,
   },
   grblHAL: {
     ...ARDUINO,

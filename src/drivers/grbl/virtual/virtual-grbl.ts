@@ -356,7 +356,7 @@ export class VirtualGrbl implements VirtualMachine {
   private stopForDoor(): void {
     if (this.states.isHoming) return this.failHoming(7);
     if (this.states.cannotHold) return;
-    this.reply("[MSG:Check Door]");
+    this.reply(this.settings.face.message("Check Door"));
     if (this.states.isAsleep) return;
     this.states.door.stop();
     this.hold();
@@ -400,7 +400,7 @@ export class VirtualGrbl implements VirtualMachine {
     this.startDueS = null;
     this.states.isLocked = this.states.isDeaf = true;
     this.reply(this.settings.face.alarm(code));
-    this.reply("[MSG:Reset to continue]");
+    this.reply(this.settings.face.message("Reset to continue"));
   }
 
   private begin(): void {
@@ -414,7 +414,7 @@ export class VirtualGrbl implements VirtualMachine {
     this.modes.reset();
     this.settings.offsetDue = 0;
     this.reply(this.settings.face.greeting);
-    if (this.states.isLocked) this.reply("[MSG:'$H'|'$X' to unlock]");
+    if (this.states.isLocked) this.reply(this.settings.face.message("'$H'|'$X' to unlock"));
     else if (this.states.door.isOpen) this.stopForDoor();
   }
 

@@ -75,7 +75,9 @@ describe.each(FACES)("a %s", (face) => {
     const run = await begin();
     await world.advance(2.1);
     board.stopWith(1);
-    expect(await within(run.finished)).toMatch(/^board-error: The Grbl has stopped with (an alarm|ALARM:1)/);
+    expect(await within(run.finished)).toMatch(
+      /^board-error: The Grbl has stopped with (ALARM: Hard limit|ALARM:1) \(a limit switch was hit\)/,
+    );
     expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
     expect(driver.state).toMatchObject({ connection: "idle", xMm: null });
   });

@@ -75,6 +75,52 @@ describe.each([
   });
 });
 
+describe.each(["1.1", "0.9"] as const)("a %s on its way home", (face) => {
+  const onItsWay = async () => {
+    const homes = withSwitches(GRBL);
+    const all = await newPlotter({ face, settings: { 22: 1 } }, homes);
+    const seeking = all.within(all.driver.move({ kind: "home" }));
+    await all.world.advance(3);
+    return { ...all, seeking };
+  };
+
+  it("is stopped at once, stays connected, and finds home again", async () => {
+    const { world, board, driver, within, seeking } = await onItsWay();
+    await world.run(driver.stopMove(), LIMIT_S);
+    expect(await seeking).toMatch(/^conflict: /);
+    await world.advance(3);
+    expect(driver.state).toMatchObject({ connection: "idle", xMm: null });
+    expect(driver.log()).not.toMatch(/The Grbl has (stopped|restarted)/);
+    expect(await within(driver.move({ kind: "home" }))).toBeUndefined();
+    expect(board.state()).toMatchObject({ state: "Idle", xMm: 0, yMm: 0, penUp: true });
+  });
+
+  it("is stopped at once before a plot, which can go on then", async () => {
+    const homes = withSwitches(GRBL);
+    const own = { ...SETTINGS, customMachine: homes };
+    const { world, board, driver, begin, within } = await newPlotter({ face, settings: { 22: 1 } }, homes);
+    const run = await begin(new LocalPlanner(DRAWING), {}, own);
+    await world.advance(2);
+    await world.run(run.emergencyStop(), LIMIT_S);
+    await world.advance(3);
+    expect(driver.state).toMatchObject({ connection: "busy", xMm: null });
+    expect(driver.log()).not.toMatch(/The Grbl has (stopped|restarted)/);
+    await world.run(run.resume(), LIMIT_S);
+    expect(await within(run.finished)).toEqual({ kind: "done" });
+    expectDrawn(board as never, DRAWING, 0.02);
+  });
+
+  it("says which alarm has stopped it", async () => {
+    const { board, seeking } = await onItsWay();
+    board.takeFromOther("\x18");
+    expect(await seeking).toMatch(
+      face === "0.9"
+        ? /The Grbl has stopped with ALARM: Homing fail \(a switch was not found/
+        : /The Grbl has stopped with ALARM:6 \(the machine was reset while it sought its switches\)/,
+    );
+  });
+});
+
 it("a profile with switches on a Grbl without homing is refused in words, and nothing moves", async () => {
   const { board, start, within } = await plotter(GRBL, {});
   expect(await within((await start()).finished)).toMatch(/^bad-setting: .*homing is off \(\$22=0\)/);
