@@ -1,12 +1,29 @@
 /** A serial port as a `Transport`. Its errors say what to do. */
+import { setTimeout } from "node:timers/promises";
 import type { SerialPort } from "serialport";
 import { PlotwrightError, type Transport } from "../../src/index.js";
 
 /** A Grbl needs this rate; an EiBotBoard is a USB device and ignores it. */
 const BAUD_RATE = 115_200;
 
-/** Opens and locks a port. Rejects with `no-board`, `not-allowed` or `busy`. */
+/** On a busy computer a port stays locked for a moment after it was closed. */
+const LOCKED_TRIES = 10;
+const LOCKED_MS = 100;
+
+/** Opens and locks a port. Rejects with `no-board`, `not-allowed` or `busy`, the latter only if it stays locked. */
 export async function openSerial(path: string): Promise<Transport> {
+  for (let tries = 1; ; tries++) {
+    try {
+      return await openOnce(path);
+    } catch (error) {
+      const isLocked = error instanceof PlotwrightError && error.code === "busy";
+      if (!isLocked || tries === LOCKED_TRIES) throw error;
+    }
+    await setTimeout(LOCKED_MS);
+  }
+}
+
+async function openOnce(path: string): Promise<Transport> {
   // Loaded here, because a server with a virtual board never needs it.
   const { SerialPort } = await import("serialport");
   // An Arduino restarts at each change of the line DTR, and a Grbl then forgets its place. Without hupcl the line stays as it

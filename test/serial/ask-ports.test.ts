@@ -100,8 +100,7 @@ describe("the ports of this computer", () => {
   });
 
   it("say why they can't be opened", async () => {
-    // On a busy computer a port stays locked for a moment after it was closed.
-    const holding = await vi.waitFor(() => openSerial(ebb.path));
+    const holding = await openSerial(ebb.path);
     const asked = await askPorts({ devices, clock: nodeClock }, (path) => path !== ebb.path);
     await holding.close();
     expect(asked).toMatchObject([

@@ -1,3 +1,4 @@
+import { setTimeout } from "node:timers/promises";
 import { afterEach, describe, expect, it } from "vitest";
 import { openSerial, openError } from "../../server/serial/serial-transport.js";
 import { nodeClock } from "../../server/serial/node-clock.js";
@@ -43,6 +44,15 @@ describe("a serial port", () => {
     const board = keep(await PtyBoard.open());
     keep(await openSerial(board.path));
     expect(await outcome(openSerial(board.path))).toContain(`busy: Another program is using ${board.path}:`);
+  });
+
+  it("is opened when another program frees it within a moment", async () => {
+    const board = keep(await PtyBoard.open());
+    const before = await openSerial(board.path);
+    const opening = openSerial(board.path);
+    await setTimeout(300);
+    await before.close();
+    keep(await opening);
   });
 
   it("explains how to find the right path if there is nothing at the given one", async () => {
