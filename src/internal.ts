@@ -197,6 +197,7 @@ export {
 export { allDrivers, driverOf } from "./drivers/connecting.js";
 export { scaledClock } from "./drivers/transport.js";
 export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
+export { MIN_RUN } from "./drivers/driver.js";
 export type {
   Driver,
   Machine,

@@ -12,6 +12,7 @@
  */
 import { PlotwrightError, type StrokePosition, type StrokeSet } from "../../src/index.js";
 import {
+  MIN_RUN,
   movedPosition,
   pointAt,
   type Machine,
@@ -77,7 +78,9 @@ export class MachinePlot implements RunningPlot {
     this.settings = new LiveSettings(settings);
     this.stops = new PenStops(this.strokes, settings, start.from ?? null);
     const { live } = start;
+    const run = newRun();
     this.stream = machine.startPlayback({
+      run,
       get strokes() {
         return planner.strokes;
       },
@@ -90,7 +93,10 @@ export class MachinePlot implements RunningPlot {
     });
     if (live && !this.stream.growth) throw notLive(machineOf(settings).name);
     this.feed = live ? new LiveFeed(live, machine, this.stream, this.settings, () => this.holdPlace) : null;
-    this.reports = new PlotReports(machine, this.stream, this.settings, live ? inWhole(live, start) : start);
+    this.reports = new PlotReports(machine, this.stream, this.settings, {
+      ...(live ? inWhole(live, start) : start),
+      run,
+    });
     const { from = null, received } = start;
     const { stream, stops, feed } = this;
     this.plans = new PlotPlans({
@@ -103,7 +109,8 @@ export class MachinePlot implements RunningPlot {
       start: from,
     });
     this.holdPlace =
-      from && resumePosition(machine, this.strokes, settings, this.stops.strokes, { from, received });
+      from &&
+      resumePosition(machine, this.strokes, settings, this.stops.strokes, { from, received, run: start.run });
     if (start.held ?? this.holdPlace !== null) this.requested = "hold";
     this.finished = this.run();
     // Callers await `finished`. If none does, its rejection must not end the process, so it is handled here.
@@ -406,6 +413,9 @@ const inWhole = (live: LiveStrokes, { journal, noted }: PlotStart): Pick<PlotSta
       }),
   },
 });
+
+/** A number that no other run has, also none of another computer. */
+const newRun = (): number => MIN_RUN + Number.parseInt(crypto.randomUUID().slice(0, 7), 16);
 
 const notLive = (name: string): PlotwrightError =>
   new PlotwrightError(

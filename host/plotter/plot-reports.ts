@@ -24,7 +24,7 @@ export class PlotReports {
     private readonly machine: Machine,
     private readonly stream: Playback,
     private readonly settings: LiveSettings,
-    private readonly start: Pick<PlotStart, "journal" | "noted">,
+    private readonly start: Pick<PlotStart, "journal" | "noted"> & { readonly run: number },
   ) {}
 
   /** If there has been progress already, the listener learns the latest now. */
@@ -59,7 +59,7 @@ export class PlotReports {
     this.journalDueS = clock.nowS() + JOURNAL_S * speed;
     if (!place) return;
     const { xMm, yMm, penUp, elapsedS } = latest ?? this.initialProgress();
-    this.start.journal?.record({ place, received, xMm, yMm, penUp, elapsedS });
+    this.start.journal?.record({ place, received, run: this.start.run, xMm, yMm, penUp, elapsedS });
   }
 
   /** The progress before anything has been streamed. */

@@ -136,6 +136,8 @@ export interface JournalEntry {
    * still on its way to `place`: it had then received nothing that draws after `place`.
    */
   readonly received?: StrokePosition | undefined;
+  /** The run of the plot that wrote this: a machine found in the middle of another run says nothing about the place. */
+  readonly run?: number | undefined;
   readonly xMm: number;
   readonly yMm: number;
   readonly penUp: boolean;
@@ -155,6 +157,8 @@ export interface PlotStart {
   readonly from?: StrokePosition | null | undefined;
   /** `received` of the same journal entry. Default: nothing was drawn after `from`. */
   readonly received?: StrokePosition | undefined;
+  /** `run` of the same journal entry. */
+  readonly run?: number | undefined;
   /** `board` of the same journal entry. The position of any other board says nothing about this plot. */
   readonly board?: BoardId | undefined;
   /** Start held, without moving. Default true if `from` is set, so that the user decides when to continue. */

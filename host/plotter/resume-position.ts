@@ -30,6 +30,7 @@ const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0
 export const journalSchema = z.object({
   place: placeSchema,
   received: placeSchema.optional(),
+  run: z.int().optional(),
   board: boardIdSchema.optional(),
 });
 
@@ -46,12 +47,14 @@ export function resumePosition(
   strokes: StrokeSet,
   settings: PlotSettings,
   penStops: readonly number[],
-  { from, received }: { readonly from: StrokePosition } & Pick<JournalEntry, "received">,
+  { from, received, run }: { readonly from: StrokePosition } & Pick<JournalEntry, "received" | "run">,
 ): StrokePosition {
   const profile = machineOf(settings);
   const { foundMidPlot, speed } = machine;
   const at = machine.positionMm(profile);
   if (!foundMidPlot || !at) return from;
+  // Another plot has moved the carriage since.
+  if (foundMidPlot.run !== undefined && foundMidPlot.run !== run) return from;
   // The plot was on its way to `from`. A pen on the paper shows that the board has received more since, and draws there.
   if (!received && foundMidPlot.penUp) return from;
   const { motion, pen, sendAheadMs } = settings;

@@ -28,7 +28,7 @@ export class PlotJournals {
   }
 
   /** Stores the progress with the place. Otherwise it would be only in memory and lost when the server is killed. */
-  save(id: string, entry: Pick<JournalEntry, "place" | "received">): void {
+  save(id: string, entry: Pick<JournalEntry, "place" | "received" | "run">): void {
     const { progress, elapsedS, remainingS } = this.jobs.get(id);
     this.store.saveJournal(id, { ...entry, progress, elapsedS, remainingS });
   }

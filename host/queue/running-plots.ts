@@ -296,6 +296,7 @@ export class RunningPlots {
     return {
       live: live ?? undefined,
       received: isJournalPlace ? entry?.received : undefined,
+      run: isJournalPlace ? entry?.run : undefined,
       board: entry?.board,
       journal: { record: (written) => this.safely(id, () => this.journals.save(id, written)) },
       noted: (message) => {

@@ -213,7 +213,7 @@ interface MachineParts {
    * How the machine was found, if an unfinished plot had moved it last and it still knew its position when it was
    * connected. Null after the first move.
    */
-  readonly foundMidPlot?: { readonly penUp: boolean } | null;
+  readonly foundMidPlot?: FoundMidPlot | null;
   /** A servo that moves the pen. */
   readonly servo?: ServoPart;
   /** What this machine itself does not keep, for the next connection to it. Only its driver reads the content. */
@@ -255,7 +255,19 @@ export interface ConsoleAnswer {
   readonly note: string | null;
 }
 
+/** Number of the first run. Smaller numbers in a machine's counter may be those of another program. */
+export const MIN_RUN = 2 ** 28;
+
+/** How a machine was found in the middle of a plot. */
+export interface FoundMidPlot {
+  readonly penUp: boolean;
+  /** The number of the run that moved it last (`PlaybackRequest`); undefined if the machine can't keep it. */
+  readonly run?: number | undefined;
+}
+
 export interface PlaybackRequest {
+  /** Tells this run of a plot from all others, `MIN_RUN` … 2 · `MIN_RUN` - 1. A machine may keep it, for the next connection. */
+  readonly run: number;
   /** Of a live drawing: those known so far. */
   readonly strokes: StrokeSet;
   /** The plan will grow. Default false. */

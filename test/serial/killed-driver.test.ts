@@ -122,7 +122,7 @@ async function resumedAfter(
 ): Promise<number> {
   const board = await PtyBoard.open({ firmware, wakeful: true });
   try {
-    const { place: from, received } = await interrupt(board, line, afterS);
+    const { place: from, received, run: before } = await interrupt(board, line, afterS);
     const driver = new NodePlotter({ device: board.path });
     try {
       await driver.start();
@@ -130,6 +130,7 @@ async function resumedAfter(
       const run = await driver.plot(new LocalPlanner(strokesOf(line)), DEFAULT_PLOT_SETTINGS, {
         from,
         received,
+        run: before,
       });
       await run.resume();
       expect(await run.finished).toEqual({ kind: "done" });

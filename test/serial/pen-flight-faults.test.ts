@@ -85,12 +85,16 @@ const unplug: Interrupt = async (board, overlap, afterS) => {
 async function resumed(interrupt: Interrupt, { overlap, firmware, servo }: Case, afterS: number) {
   const board = await PtyBoard.open({ firmware, wakeful: true, servo: virtualServo(servo) });
   try {
-    const { place: from, received } = await interrupt(board, overlap, afterS);
+    const { place: from, received, run: before } = await interrupt(board, overlap, afterS);
     const driver = new NodePlotter({ device: board.path });
     try {
       await driver.start();
       await untilIdle(driver);
-      const run = await driver.plot(new LocalPlanner(HOPS), penSettings(overlap), { from, received });
+      const run = await driver.plot(new LocalPlanner(HOPS), penSettings(overlap), {
+        from,
+        received,
+        run: before,
+      });
       await run.resume();
       expect(await run.finished).toEqual({ kind: "done" });
     } finally {

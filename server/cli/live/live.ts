@@ -103,7 +103,7 @@ function begin(
     live: source,
     journal: journalIn(record, () => 0, io),
     noted: (message) => io.err(printed`${message}\n`),
-    ...(left && { from: left.from, received: left.received, board: left.board, held: false }),
+    ...(left && { from: left.from, received: left.received, run: left.run, board: left.board, held: false }),
   };
   return plotter.plot(livePlanner(source), settings, start);
 }

@@ -42,6 +42,7 @@ interface StoredPlot {
 export interface InterruptedPlot extends StoredPlot {
   readonly from: JournalEntry["place"];
   readonly received: JournalEntry["received"];
+  readonly run: JournalEntry["run"];
   readonly board: JournalEntry["board"];
   /** 0 … 1. */
   readonly progress: number;
@@ -122,8 +123,8 @@ export class PlotRecord {
     if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
     if (this.ownerElsewhere() !== null) return null;
     const { name, settings, only } = plot.data;
-    const { place, received, board, progress } = entry.data;
-    return { name, settings, only, from: place, received, board, progress };
+    const { place, received, run, board, progress } = entry.data;
+    return { name, settings, only, from: place, received, run, board, progress };
   }
 
   /** Throws `not-found`, or `conflict` if the plot still runs in another process. */

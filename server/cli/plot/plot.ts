@@ -63,6 +63,7 @@ interface Plot {
   readonly font: string | undefined;
   readonly from: InterruptedPlot["from"] | null;
   readonly received: InterruptedPlot["received"];
+  readonly run: InterruptedPlot["run"];
   readonly board: InterruptedPlot["board"];
   /** Before it begins, 0 … 1. */
   readonly progress: number;
@@ -160,6 +161,7 @@ export async function runPlot(
         font,
         from: null,
         received: undefined,
+        run: undefined,
         board: undefined,
         progress: 0,
       };
@@ -271,7 +273,7 @@ function mustNotWaitForPen({ strokes }: OpenPlanner, { settings, from }: Plot): 
 async function onPlotter(
   plotter: PlotterPort,
   planner: OpenPlanner,
-  { name, settings, from, received, board, progress: before }: Plot,
+  { name, settings, from, received, run: interruptedRun, board, progress: before }: Plot,
   { begin, record, end, over }: Course,
   isInterrupted: () => boolean,
   options: PlotCommandOptions,
@@ -286,7 +288,7 @@ async function onPlotter(
   // A resumed plot waits for the user, unless there is no keyboard to start it with.
   const held = from !== null && io.hasKeyboard;
   const noted = (message: string): void => io.err(printed`${message}\n`);
-  const start: PlotStart = { from, received, board, journal, noted, held };
+  const start: PlotStart = { from, received, run: interruptedRun, board, journal, noted, held };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : ({ position, findsHome: findsHome(machineOf(settings)) } as const);

@@ -241,14 +241,14 @@ describe("plotwright plot", () => {
     const interrupt = (): void => {
       record.begin(file, { name: "b.svg", settings: DEFAULT_PLOT_SETTINGS, only: undefined });
       const [place, received] = [3, 4].map((alongMm) => ({ stroke: 0, alongMm }));
-      record.save({ place, received, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
+      record.save({ place, received, run: 5, xMm: 1, yMm: 1, penUp: false, elapsedS: 1 }, 0.4);
     };
     interrupt();
     const refused = await plot(new CaughtIo(), file);
     expect(refused.err).toMatch(/plot of b\.svg was interrupted at 40 %.*plot --resume/);
     expect(refused.code).toBe(5);
     const received = { stroke: 0, alongMm: 4 };
-    expect(record.find()).toMatchObject({ from: { stroke: 0, alongMm: 3 }, received, progress: 0.4 });
+    expect(record.find()).toMatchObject({ from: { stroke: 0, alongMm: 3 }, received, run: 5, progress: 0.4 });
     for (const other of [["--speed", "20"], ["--copies", "2"], ["--restart"], ["--no-fit"]]) {
       const { code, err } = await plot(withoutKeyboard(), "--resume", ...other);
       expect([code, err.trim()]).toEqual([2, expect.stringMatching(`leave out ${other[0]}\\.$`)]);

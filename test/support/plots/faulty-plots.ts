@@ -59,6 +59,7 @@ export async function plotWithFault(
       driver.plot(new LocalPlanner(FAULT_DRAWING), DEFAULT_PLOT_SETTINGS, {
         from: journal.at(-1)?.place,
         received: journal.at(-1)?.received,
+        run: journal.at(-1)?.run,
         journal: { record: (entry) => journal.push(entry) },
       });
     const { sleptS: sleptBeforeS } = await board.report();

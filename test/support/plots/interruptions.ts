@@ -155,7 +155,6 @@ export class InterruptiblePlot {
     const penUp = isPenUpBefore(trajectory, stream.planS[count]);
     const machine = { foundMidPlot: { penUp }, speed: 1, positionMm: () => at };
     const found = resumePosition(machine, strokes, settings, [], { from, received });
-    if (process.env.DBG) console.log(count, stream.count, received, from, penUp, at, found);
     const drawnMm = this.drawnMm(count);
     const sure: StrokePosition = received ?? from;
     return { missingMm: mmOf(strokes, found) - drawnMm, unsureMm: drawnMm - mmOf(strokes, sure) };

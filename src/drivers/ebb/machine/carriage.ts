@@ -52,7 +52,8 @@ export class Carriage {
       position.motorsOn = true;
     }
     // The place of a carriage that was moved since the plot, also by another program, says nothing about the plot.
-    if (position.state && isOurs && (await position.mark.isInPlot())) position.foundMidPlot = { penUp };
+    const run = position.state && isOurs ? await position.mark.unfinishedRun() : null;
+    if (run !== null) position.foundMidPlot = { penUp, run };
   }
 
   /** Switches the motors on if they are off. Fails if the position was lost while the board was at rest. */
@@ -101,7 +102,7 @@ export class Carriage {
 
   async perform(plot: PlannedPlot, settings: MachineSettings): Promise<void> {
     const streamer = this.upkeep.streamer(settings);
-    this.position.mark.noteInPlot(false);
+    this.position.mark.noteRun(null);
     try {
       await this.play(streamer, plot, settings);
     } catch (error) {

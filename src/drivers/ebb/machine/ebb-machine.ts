@@ -2,7 +2,7 @@
 import { PlotwrightError } from "../../../errors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
-import type { ConsoleAnswer, Machine, Playback, PlaybackRequest } from "../../driver.js";
+import type { ConsoleAnswer, FoundMidPlot, Machine, Playback, PlaybackRequest } from "../../driver.js";
 import type { MachineSettings } from "../../machine-job.js";
 import { moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
@@ -67,7 +67,7 @@ export class EbbMachine extends Carriage implements Machine {
     return this.position.motorsOn;
   }
 
-  get foundMidPlot(): { readonly penUp: boolean } | null {
+  get foundMidPlot(): FoundMidPlot | null {
     return this.position.foundMidPlot;
   }
 

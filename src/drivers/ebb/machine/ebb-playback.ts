@@ -144,7 +144,7 @@ export class EbbPlayback implements Playback, PlaybackGrowth {
     // First, because a reply that comes at once may call `fail`.
     this.streamer = streamer;
     const { mark } = carriage.position;
-    mark.noteInPlot(true);
+    mark.noteRun(this.request.run);
     const played = carriage.play(streamer, plot, this.settings);
     begun();
     let left: StrokePosition | null = null;
@@ -163,8 +163,6 @@ export class EbbPlayback implements Playback, PlaybackGrowth {
         penMoving: false,
       });
       left = this.whereStopped() ?? this.progress.place;
-      // At home, nothing is drawn that the journal does not know.
-      if (isAtHome(carriage.position.state)) mark.noteInPlot(false);
     } catch (error) {
       // The play may have failed for another reason before the stop was requested.
       if (error === this.emergency) {
@@ -181,6 +179,8 @@ export class EbbPlayback implements Playback, PlaybackGrowth {
       this.events.ended(left);
       this.streamer = null;
     }
+    // The place that is stored is exact. At home, nothing is drawn that it does not count.
+    if (this.wasStopped() || isAtHome(carriage.position.state)) mark.noteRun(null);
     if (this.wasStopped() && carriage.pen.isUp !== true) await carriage.pen.move(true, this.settings);
   }
 

@@ -1,8 +1,9 @@
 /**
  * What the board itself keeps about its position, for the next connection. Its layer variable is the mark that shows
- * whether its step counters mean anything. Its node counter shows whether an unfinished plot moved the carriage last. Both
- * are 0 after each start of the board.
+ * whether its step counters mean anything. Its node counter is the number of the unfinished run of a plot that moved the
+ * carriage last. Both are 0 after each start of the board.
  */
+import { MIN_RUN } from "../../driver.js";
 import type { FirmwareFeatures } from "../protocol/firmware.js";
 import type { BoardSession } from "../stream/session.js";
 
@@ -13,8 +14,6 @@ const POSITION_KNOWN = 112;
 /** The mark while they do not count from home. */
 const SWITCHED_ON = 1;
 const COARSEST_MODE = 5;
-/** The node counter from the beginning of a plot until it ends at home, or something else moves the carriage. */
-const IN_PLOT = 119;
 /** Time for the motion that may block the board's parser, s. */
 const MOTION_S = 2;
 
@@ -51,16 +50,19 @@ export class PositionMarker {
   }
 
   /**
-   * Call when the motors are on, or before they are switched on to find home. Only if the counters count from home can the next connection find the position.
-   * `isHomed`: a switch has found that home, which other programs can then use too.
+   * Call when the motors are on, or before they are switched on to find home. Only if the counters count from home can the
+   * next connection find the position. `isHomed`: a switch has found that home, which other programs can then use too.
+   * From here on, the counters say nothing about a plot before.
    */
   async set(microstepMode: number, isFromHome: boolean, isHomed: boolean): Promise<void> {
+    this.noteRun(null);
     await this.write(isFromHome ? POSITION_KNOWN + microstepMode : SWITCHED_ON);
     await this.writeHomed(isFromHome && isHomed);
   }
 
-  /** Call when the position is lost. */
+  /** Call when the position is lost, and with it the place of an unfinished plot. */
   async clear(): Promise<void> {
+    this.noteRun(null);
     await this.write(0);
     await this.writeHomed(false);
   }
@@ -71,16 +73,18 @@ export class PositionMarker {
   }
 
   /**
-   * Call before a plot moves the carriage, when it has ended, and before anything else moves it. Does not wait for the
-   * reply, so that motion begins at once. Without this note, more is drawn twice after an interruption.
+   * Call with its number before a run of a plot moves the carriage. Call with null when its place is stored, and before
+   * anything else moves the carriage. Does not wait for the reply, so that motion begins at once. Without this note, more is
+   * drawn twice after an interruption.
    */
-  noteInPlot(isInPlot: boolean): void {
-    if (this.features.hasStepQuery) this.session.write([{ line: `SN,${isInPlot ? IN_PLOT : 0}` }]);
+  noteRun(run: number | null): void {
+    if (this.features.hasStepQuery) this.session.write([{ line: `SN,${run ?? 0}` }]);
   }
 
-  /** Whether an unfinished plot moved the carriage last. */
-  async isInPlot(): Promise<boolean> {
-    return this.features.hasStepQuery && Number(await this.session.query("QN")) === IN_PLOT;
+  /** The number of the unfinished run of a plot that moved the carriage last; null if something else did. */
+  async unfinishedRun(): Promise<number | null> {
+    const run = this.features.hasStepQuery ? Number(await this.session.query("QN")) : 0;
+    return run >= MIN_RUN ? run : null;
   }
 
   /** Whether the board has restarted since `set`. Asks twice: a single unexpected reply may belong to another query. */

@@ -7,6 +7,7 @@ import { PlotwrightError } from "../../../errors.js";
 import { positionFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
+import type { FoundMidPlot } from "../../driver.js";
 import type { MachineSettings } from "../../machine-job.js";
 import { delay } from "../../transport.js";
 import type { BoardState } from "../compile/command-stream.js";
@@ -26,7 +27,7 @@ export class EbbPosition {
   origin: readonly [number, number] = [0, 0];
   motorsOn: boolean | null = null;
   /** The pen of a board that was left in the middle of a plot, as found when connecting; null after the first move. */
-  foundMidPlot: { readonly penUp: boolean } | null = null;
+  foundMidPlot: FoundMidPlot | null = null;
   readonly mark: PositionMarker;
   /** The motors' microsteps while their position is known. */
   private microstepMode = 0;
@@ -77,8 +78,12 @@ export class EbbPosition {
     this.changed();
   }
 
-  /** The same if the position was known and can be read; otherwise forgets it and returns false. */
+  /**
+   * The same after something that is no plot has moved the motors, if the position was known and can be read. Otherwise
+   * forgets it and returns false.
+   */
   async readBackOrForget(restForS: number): Promise<boolean> {
+    this.mark.noteRun(null);
     if (this.state && this.connection.features.hasStepQuery && !(await this.mark.isGone())) {
       await this.readBack(restForS);
       return true;

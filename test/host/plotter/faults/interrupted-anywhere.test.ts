@@ -103,11 +103,13 @@ async function killedInPause(settings: PlotSettings, firmware: string, random: (
   await world.advance(0.5 + 5 * random());
   void run.pause().catch(() => undefined);
   await world.advance(PAUSE_S * random());
-  const { place: from, received } = journal[journal.length - 1];
+  const { place: from, received, run: before } = journal[journal.length - 1];
   board.unplug();
   await world.run(run.finished.catch(() => undefined));
   await world.advance(5);
-  const resumed = await world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), settings, { from, received }));
+  const resumed = await world.run(
+    driver.plot(new LocalPlanner(FAULT_DRAWING), settings, { from, received, run: before }),
+  );
   await world.run(resumed.resume());
   expect(await world.run(resumed.finished)).toEqual({ kind: "done" });
   return compareDrawn(FAULT_DRAWING, board.drawn());

@@ -105,9 +105,9 @@ async function underWay(world: ManualClock, journal: readonly JournalEntry[]): P
 
 /** Resumes the plot from the journal's place, and compares the paper with the drawing. */
 async function resumeAndCompare({ world, driver, board, strokes, journal }: Interrupted) {
-  const { place: from, received } = journal.at(-1) ?? { place: { stroke: 0, alongMm: 0 } };
+  const { place: from, received, run: before } = journal.at(-1) ?? { place: { stroke: 0, alongMm: 0 } };
   const run = await world.run(
-    driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, { from, received }),
+    driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, { from, received, run: before }),
   );
   await world.advance(1);
   await world.run(run.resume());
@@ -206,7 +206,7 @@ it("a plot whose server is killed on a line that retraces itself resumes from th
     await underWay(world, journal);
     await world.advance(1.5 + 4 * random());
     // A killed server writes nothing at its end; the board plays what it has.
-    const { place: from, received } = journal[journal.length - 1];
+    const { place: from, received, run: before } = journal[journal.length - 1];
     virtualBoardOf(driver).unplug();
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);
@@ -215,7 +215,7 @@ it("a plot whose server is killed on a line that retraces itself resumes from th
     const [plot] = planner.plots;
     const truthMm = drawnUntilMm(ROUND_AND_ROUND, plot, planSAfter(plot.commands, ticks));
     const again = await world.run(
-      driver.plot(new LocalPlanner(ROUND_AND_ROUND), DEFAULT_PLOT_SETTINGS, { from, received }),
+      driver.plot(new LocalPlanner(ROUND_AND_ROUND), DEFAULT_PLOT_SETTINGS, { from, received, run: before }),
     );
     expect(Math.abs(mmOf(ROUND_AND_ROUND, again.holdPlace!) - truthMm)).toBeLessThan(2 * GAP_MM);
     await world.run(Promise.all([again.cancel(), again.finished]));
@@ -236,10 +236,10 @@ describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
     virtualBoardOf(driver).unplug();
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);
-    const { place: from, received } = journal[journal.length - 1];
+    const { place: from, received, run: before } = journal[journal.length - 1];
     const holdPlace = async (): Promise<number> => {
       const again = await world.run(
-        driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, { from, received }),
+        driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, { from, received, run: before }),
       );
       const place = again.holdPlace!;
       await world.run(Promise.all([again.cancel(), again.finished]));
@@ -258,9 +258,64 @@ describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
     expect(await holdPlace()).toBeGreaterThan(fromMm + GAP_MM);
   });
 
+  it("is not that of another plot that was interrupted since", async () => {
+    const { world, driver, fromMm, holdPlace, reconnect } = await killedOnLine(1);
+    const other = await world.run(driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS));
+    await world.advance(3);
+    await reconnect();
+    await world.run(other.finished.catch(() => undefined));
+    expect(await holdPlace()).toBeCloseTo(fromMm, 6);
+  });
+
+  it("is the chosen one after a pause, also with the pen on the paper", async () => {
+    const { world, driver } = await virtualPlotter({ firmware });
+    const journal: JournalEntry[] = [];
+    const record = (entry: JournalEntry): void => void journal.push(entry);
+    const run = await world.run(
+      driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, { journal: { record } }),
+    );
+    await underWay(world, journal);
+    await world.advance(2);
+    await world.run(run.pause());
+    const chosen = run.moveHoldPlace({ mm: -20 });
+    await world.run(run.movePenAtHold(false));
+    virtualBoardOf(driver).unplug();
+    await world.run(run.finished.catch(() => undefined));
+    await world.advance(5);
+    const { place: from, received, run: before } = journal[journal.length - 1];
+    expect(from).toEqual(chosen);
+    const again = await world.run(
+      driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, { from, received, run: before }),
+    );
+    expect(again.holdPlace).toEqual(chosen);
+    await world.run(Promise.all([again.cancel(), again.finished]));
+  });
+
   it("is not that of the plot after the carriage was moved by hand along its line", async () => {
     const { world, driver, fromMm, holdPlace, reconnect } = await killedOnLine(2);
     await world.run(driver.moveTo(10 + fromMm + 30, 10));
+    await reconnect();
+    expect(await holdPlace()).toBeCloseTo(fromMm, 6);
+  });
+
+  it("is not that of the plot after home was set where it stopped", async () => {
+    const { world, driver, fromMm, holdPlace, reconnect } = await killedOnLine(7);
+    await world.run(driver.setHome());
+    await reconnect();
+    expect(await holdPlace()).toBeCloseTo(fromMm, 6);
+  });
+
+  it("is not that of the plot after the carriage was pushed home by hand", async () => {
+    const { world, driver, fromMm, holdPlace, reconnect } = await killedOnLine(7);
+    await world.run(driver.motorsOff());
+    await world.run(driver.setHome());
+    await reconnect();
+    expect(await holdPlace()).toBeCloseTo(fromMm, 6);
+  });
+
+  it("is not that of the plot after a typed command has moved the carriage along its line", async () => {
+    const { world, driver, fromMm, holdPlace, reconnect } = await killedOnLine(2);
+    await world.run(driver.command("SM,1000,1600,1600"));
     await reconnect();
     expect(await holdPlace()).toBeCloseTo(fromMm, 6);
   });

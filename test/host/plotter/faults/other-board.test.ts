@@ -57,10 +57,10 @@ async function continuedOn(first: Kind, second: Kind, isSame = false) {
   await world.advance(3);
   await plug(isSame ? 0 : 1);
   await world.run(ended);
-  const { place: from, received, board } = journal[journal.length - 1];
+  const { place: from, received, run: before, board } = journal[journal.length - 1];
   expect(board).toMatchObject({ boardSerialNumber: first.serialNumber, firmware: first.firmware });
   const again = await world.run(
-    driver.plot(planner, DEFAULT_PLOT_SETTINGS, { from, received, board, held: true }),
+    driver.plot(planner, DEFAULT_PLOT_SETTINGS, { from, received, run: before, board, held: true }),
   );
   const { xMm } = driver.state;
   const { motorsOn, penUp } = boards[plugged].state();

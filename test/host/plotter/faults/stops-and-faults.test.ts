@@ -78,7 +78,11 @@ async function newPlot(firmware: string, strokes: StrokeSet) {
   const plot = (start: PlotStart): Promise<RunningPlot> =>
     world.run(driver.plot(new LocalPlanner(strokes), SETTINGS, { ...start, journal: { record } }));
   const resumedGapMm = async (): Promise<number> => {
-    const again = await plot({ from: journal.at(-1)?.place, received: journal.at(-1)?.received });
+    const again = await plot({
+      from: journal.at(-1)?.place,
+      received: journal.at(-1)?.received,
+      run: journal.at(-1)?.run,
+    });
     await world.run(again.resume());
     expect(await world.run(again.finished)).toEqual({ kind: "done" });
     return compareDrawn(strokes, board.drawn()).gapMm;
