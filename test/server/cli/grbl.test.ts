@@ -3,6 +3,7 @@ import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { beforeEach, expect, it } from "vitest";
 import { GRBL } from "../../support/machines/machine.js";
+import { networkGrbl } from "../../support/plots/network-grbl.js";
 import { cli } from "../../support/processes/command-line.js";
 import { folderOfTest } from "../../support/processes/folders.js";
 
@@ -68,4 +69,31 @@ it("plot draws on a virtual Grbl", async () => {
       /^whirling-triangles\.svg: drawn [^\n]*, 100 %\nPlotting whirling-triangles\.svg\.\n(?:\d+ % [^\n]*\n)*Done: whirling-triangles\.svg, after/,
     ) as string,
   });
+});
+
+it.each([
+  ["a Grbl 0.9", { face: "0.9" }],
+  ["a FluidNC", { face: "FluidNC" }],
+  ["a DrawCore", { face: "DrawCore" }],
+  ["a grblHAL", { face: "grblHAL" }],
+  ["a Grbl that reports in inches", { settings: { 13: 1 } }],
+  ["a Grbl that reports work positions", { settings: { 10: 0 } }],
+  ["a Grbl that reports work positions and buffers", { settings: { 10: 2 } }],
+  ["a Grbl that reports machine positions and buffers", { settings: { 10: 3 } }],
+] as const)("plot draws on the network with %s", async (_, options) => {
+  const grbl = await networkGrbl(options, 50);
+  const drawing = join(dir, "line.svg");
+  writeFileSync(
+    drawing,
+    '<svg xmlns="http://www.w3.org/2000/svg" width="80mm" height="50mm" viewBox="0 0 80 50" fill="none" stroke="#000"><path d="M10 10H60V40"/></svg>',
+  );
+  try {
+    const own = ["--machine-file", profile, "--device", grbl.device, "--virtual-speed", "50", "--data", dir];
+    expect(await cli("plot", drawing, ...own)).toMatchObject({ code: 0 });
+    const drawn = grbl.board.drawn().filter(({ penDown, xy }) => penDown && xy.length > 2);
+    expect(drawn.map(({ xy }) => [...xy])).toEqual([[10, 10, 60, 10, 60, 40]]);
+    expect(grbl.board.state()).toMatchObject({ penUp: true, lostCount: 0 });
+  } finally {
+    await grbl.close();
+  }
 });

@@ -1,14 +1,13 @@
 /** A machine on the network: a virtual Grbl behind a TCP port. */
-import { createServer, type AddressInfo, type Socket } from "node:net";
 import { afterEach, describe, expect, it } from "vitest";
 import { driver } from "../../../src/drivers/grbl/driver.js";
-import { VirtualGrbl } from "../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { NODE_PARTS } from "../../../server/plotter/node-parts.js";
 import { nodeClock } from "../../../server/serial/node-clock.js";
 import { tcpAddress } from "../../../server/serial/tcp-transport.js";
-import { GRBL, NO_EVENTS } from "../../support/machines/machine.js";
+import { NO_EVENTS } from "../../support/machines/machine.js";
 import { SETTINGS } from "../../support/plots/grbl-plotter.js";
 import { LocalPlanner, strokesOf } from "../../support/plots/local-planner.js";
+import { networkGrbl } from "../../support/plots/network-grbl.js";
 import { NodePlotter } from "../../support/plots/node-plotter.js";
 
 const SPEED = 50;
@@ -19,23 +18,9 @@ afterEach(async () => {
 
 /** A FluidNC on this computer. */
 async function onNetwork() {
-  const board = new VirtualGrbl({ clock: nodeClock, speed: SPEED, machine: GRBL }, { face: "FluidNC" });
-  const sockets = new Set<Socket>();
-  const server = createServer((socket) => {
-    sockets.add(socket);
-    const line = board.transport();
-    line.onData((bytes) => socket.write(bytes));
-    socket.on("data", (bytes) => void line.write(bytes));
-    socket.on("error", () => undefined);
-  });
-  await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
-  closing.push(() => {
-    for (const socket of sockets) socket.destroy();
-    board.close();
-    return new Promise((resolve) => server.close(resolve));
-  });
-  const { port } = server.address() as AddressInfo;
-  return { board, sockets, device: `tcp://127.0.0.1:${port}` };
+  const { close, ...grbl } = await networkGrbl({ face: "FluidNC" }, SPEED);
+  closing.push(close);
+  return grbl;
 }
 
 describe("a machine on the network", () => {

@@ -16,6 +16,8 @@ export interface Reported {
   /** Blocks and characters that are free. */
   readonly free: string;
   readonly feed: number;
+  /** Its setting $10: 1 for machine positions in place of work positions, plus 2 for what is free. */
+  readonly mask: number;
 }
 
 export interface Face {
@@ -26,6 +28,8 @@ export interface Face {
   readonly rxBytes: number;
   /** The answer to `$G`. */
   modes(words: string): string;
+  /** $10 as it is delivered, see `Reported`. */
+  readonly mask: number;
   report(status: Reported): string;
   /** A refused line and an alarm; version 0.9 uses words. */
   error(code: number): string;
@@ -48,8 +52,10 @@ const ARDUINO: Face = {
   queueMoves: QUEUE_MOVES,
   rxBytes: RX_BYTES,
   modes: (words) => `[GC:${words}]`,
-  report: ({ state, machineAt, free, feed, offset }) =>
-    `<${state}|MPos:${machineAt}|Bf:${free}|FS:${feed},0${offset === null ? "" : `|WCO:${offset}`}>`,
+  mask: 3,
+  report: ({ state, machineAt, workAt, free, feed, offset, mask }) =>
+    `<${state}|${mask & 1 ? `MPos:${machineAt}` : `WPos:${workAt}`}${mask & 2 ? `|Bf:${free}` : ""}|FS:${feed},0` +
+    `${offset === null ? "" : `|WCO:${offset}`}>`,
   error: (code) => `error:${code}`,
   alarm: (code) => `ALARM:${code}`,
   message: (words) => `[MSG:${words}]`,
@@ -116,7 +122,6 @@ const TABLE: Readonly<Record<FaceName, Face>> = {
     ...ARDUINO,
     greeting: "Grbl 1.1h DrawCore V2.09 ['$' for help]",
     takesArcs: false,
-    report: ({ state, workAt, free, feed, offset }) =>
-      `<${state}|WPos:${workAt}|Bf:${free}|FS:${feed},0${offset === null ? "" : `|WCO:${offset}`}>`,
+    mask: 2,
   },
 };

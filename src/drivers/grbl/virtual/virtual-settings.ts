@@ -68,7 +68,7 @@ export class VirtualSettings {
     const all: Readonly<Record<number, number>> = {
       0: 10,
       1: 25,
-      10: 3,
+      10: this.face.mask,
       11: junctionMm,
       12: ARC_TOLERANCE_MM,
       13: 0,
@@ -124,6 +124,7 @@ export class VirtualSettings {
       offset: hasOffset ? this.reported(work) : null,
       free,
       feed: Math.round(60 * speedMmPerS),
+      mask: this.value(10),
     });
   }
 
