@@ -25,7 +25,8 @@ import {
 } from "../src/settings/pen.js";
 import { MARGINS_TABLE, PAPER_TABLE } from "../src/settings/placement.js";
 import { HATCH_TABLE, PREPARE_TABLE } from "../src/settings/prepare.js";
-import { meaningInWords, takesAuto, type Setting, type SettingsTable } from "../src/settings/setting.js";
+import { meaningInWords } from "../src/settings/texts.js";
+import { takesAuto, type Setting, type SettingsTable } from "../src/settings/setting.js";
 
 interface SettingsType {
   readonly about: string;

@@ -80,6 +80,7 @@ export { getOrAdd } from "./get-or-add.js";
 export { inPageWords } from "./settings/page-words.js";
 export { bestMatches, type Searched } from "./settings/matching.js";
 export { GIVEN_WHOLE, isSameJson, withGiven } from "./settings/partial.js";
+export { aboutOf, wordsOf } from "./settings/texts.js";
 export {
   isAllowed,
   rangeInWords,

@@ -2,6 +2,7 @@
 import { InvalidArgumentError } from "commander";
 import { PAPER_SIZES } from "../../src/index.js";
 import {
+  aboutOf,
   SETTING_FLAGS,
   flagInWords,
   parseSize,
@@ -64,7 +65,7 @@ const STRUCTURED: readonly SettingOption[] = [
 function optionsOf(setting: SettingFlag): SettingOption[] {
   const { path, group, flag, row } = setting;
   const common = { path, group, isCommon: row.isCommon === true };
-  const about = `${row.about} (${valuesInWords(setting)})`;
+  const about = `${aboutOf(row)} (${valuesInWords(setting)})`;
   if (row.kind === "number") {
     const parse = row.unit === "mm" ? length : number;
     return [{ ...common, flags: flagInWords(setting), about, parse }];

@@ -41,9 +41,12 @@ export interface Controller {
 /** The fields of one kind of controller, besides `kind`. They are defined in its driver's folder (src/drivers). */
 export type ControllerFields = Readonly<Record<string, ControllerField>>;
 
+/** A setting of a controller, with what it does in a phrase. */
+export type ControllerSetting = Setting & { readonly about: string };
+
 /** With `isOptional` it may be null or left out. */
 export type ControllerField = { readonly isOptional?: true } & (
-  | Setting
+  | ControllerSetting
   | { readonly kind: "one-of"; readonly values: readonly (string | number)[] }
   | { readonly kind: "text"; readonly label: string; readonly maxLength: number }
   /** An object of fields. */

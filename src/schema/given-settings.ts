@@ -3,6 +3,7 @@
  * refused, and the probable one is named: a misspelt height must not be ignored.
  */
 import { z } from "zod";
+import { aboutOf, wordsOf } from "../settings/texts.js";
 import { bestMatches, type Searched } from "../settings/matching.js";
 import type { DeepPartial } from "../settings/partial.js";
 import { SETTING_FLAGS } from "../settings/tables.js";
@@ -113,8 +114,8 @@ const inWords = (name: string): string => name.replace(/^no-/, "").replace(/([a-
 
 function searchedAt(path: string): Searched & { readonly path: string } {
   const { flag = "", row } = SETTING_FLAGS.find((one) => one.path === path) ?? {};
-  const words = `${row?.label ?? ""}, ${row?.words ?? ""}`;
-  return { path, label: inWords(`${path} ${flag}`), words, where: row?.about ?? "" };
+  const words = `${row?.label ?? ""}, ${row ? wordsOf(row) : ""}`;
+  return { path, label: inWords(`${path} ${flag}`), words, where: row ? aboutOf(row) : "" };
 }
 
 /** The paths of all settings; `*` is the id of a layer or the number of an entry. */

@@ -21,7 +21,7 @@ function valueSchema(field: ControllerField): z.ZodType {
     case "group":
       return z.object(fieldShape(field.fields));
     default:
-      return schemaOf(field);
+      return schemaOf(field, field.about);
   }
 }
 

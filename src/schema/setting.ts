@@ -1,5 +1,6 @@
 /** Builds schemas from the settings tables. Their descriptions are shown by the HTTP reference and OpenAPI. */
 import { z } from "zod";
+import { aboutOf } from "../settings/texts.js";
 import {
   AUTO,
   orAutoInWords,
@@ -11,22 +12,25 @@ import {
   type ValuesOf,
 } from "../settings/setting.js";
 
-export function numberSchema(row: NumberSetting): z.ZodNumber {
+/** `about`: what it does, in a phrase. */
+export function numberSchema(row: NumberSetting, about = aboutOf(row)): z.ZodNumber {
   const error = `it must be ${rangeInWords(row)}`;
   const number = row.isWhole ? z.int({ error }) : z.number({ error });
   const fromMin = row.minExcluded ? number.gt(row.min, { error }) : number.min(row.min, { error });
-  return fromMin.max(row.max, { error }).describe(row.about);
+  return fromMin.max(row.max, { error }).describe(about);
 }
 
-export function schemaOf(row: Setting): z.ZodType {
-  if (takesAuto(row)) return orAuto(row).describe(row.about);
-  if (row.kind === "number") return numberSchema(row);
-  return (row.kind === "switch" ? z.boolean() : z.enum(row.choices)).describe(row.about);
+export function schemaOf(row: Setting, about = aboutOf(row)): z.ZodType {
+  if (takesAuto(row)) return orAuto(row, about).describe(about);
+  if (row.kind === "number") return numberSchema(row, about);
+  return (row.kind === "switch" ? z.boolean() : z.enum(row.choices)).describe(about);
 }
 
-function orAuto(row: Setting): z.ZodType {
+function orAuto(row: Setting, about: string): z.ZodType {
   const error = `it must be ${orAutoInWords(row)}`;
-  return z.union([row.kind === "number" ? numberSchema(row) : z.boolean(), z.literal(AUTO)], { error });
+  return z.union([row.kind === "number" ? numberSchema(row, about) : z.boolean(), z.literal(AUTO)], {
+    error,
+  });
 }
 
 type ShapeOf<Table extends SettingsTable> = {

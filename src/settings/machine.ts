@@ -6,9 +6,6 @@ export const STREAM_TABLE = {
   sendAheadMs: {
     kind: "number",
     label: "Motion sent ahead",
-    words: "buffer, latency",
-    about:
-      "motion sent ahead of the pen; with less, stops are faster, but the pen may pause when the computer is busy",
     flag: "--send-ahead-ms",
     default: 300,
     min: 100,
@@ -27,7 +24,6 @@ export const PEN_SERVO_TABLE = {
   minMs: {
     kind: "number",
     label: "Shortest pen move",
-    about: "time of the shortest move of the pen",
     default: 45,
     min: 0,
     max: 10_000,
@@ -37,7 +33,6 @@ export const PEN_SERVO_TABLE = {
   slopeMsPerPct: {
     kind: "number",
     label: "Pen time per percent",
-    about: "additional time of a pen move for each percent of the servo's range",
     default: 3.07,
     min: 0,
     max: 1_000,
@@ -47,19 +42,16 @@ export const PEN_SERVO_TABLE = {
   liftPctPerS: {
     ...pctPerS,
     label: "Servo's lifting speed",
-    about: "how fast the servo's signal rises, if the pen's settings have no lifting speed",
     default: 375,
   },
   dropPctPerS: {
     ...pctPerS,
     label: "Servo's lowering speed",
-    about: "how fast the servo's signal falls, if the pen's settings have no lowering speed",
     default: 250,
   },
   frameMs: {
     kind: "number",
     label: "Servo frame",
-    about: "interval of the servo's pulses: 24, or 3 for a brushless lift",
     default: 24,
     min: 3,
     max: 24,
@@ -85,19 +77,16 @@ export const SPRINGS_TABLE = {
   xHz: {
     ...frequency,
     label: "Swings along x",
-    about: "frequency at which the machine swings along x, from the ringing sheet",
     flag: "--spring-x",
   },
   yHz: {
     ...frequency,
     label: "Swings along y",
-    about: "frequency at which the machine swings along y, from the ringing sheet",
     flag: "--spring-y",
   },
   damping: {
     kind: "number",
     label: "Damping",
-    about: "damping ratio of the swing; 0: it never ends",
     flag: "--damping",
     default: 0.05,
     min: 0,

@@ -47,7 +47,6 @@ export type Shaper = (typeof SHAPERS)[number];
 const speed = {
   kind: "number",
   label: "Speed",
-  words: "velocity, feed rate, fast, slow",
   min: 0,
   minExcluded: true,
   max: 1_000,
@@ -57,7 +56,6 @@ const speed = {
 const accel = {
   kind: "number",
   label: "Acceleration",
-  words: "ramp, accel",
   min: 0,
   minExcluded: true,
   max: 50_000,
@@ -67,7 +65,6 @@ const accel = {
 const corner = {
   kind: "number",
   label: "Corner rounding",
-  words: "cornering, junction deviation, sharp corners",
   min: 0,
   minExcluded: true,
   max: 10,
@@ -79,7 +76,6 @@ const corner = {
 const jerk = {
   kind: "number",
   label: "Softness",
-  words: "jerk, s-curve",
   min: 0,
   minExcluded: true,
   max: 10_000_000,
@@ -92,7 +88,6 @@ const jerk = {
 export const DRAW_TABLE = {
   speedMmPerS: {
     ...speed,
-    about: "maximum speed, pen down",
     flag: "--speed",
     isCommon: true,
     default: 50,
@@ -100,7 +95,6 @@ export const DRAW_TABLE = {
   },
   accelMmPerS2: {
     ...accel,
-    about: "acceleration, pen down",
     flag: "--accel",
     default: 500,
     slider: [50, 3_000],
@@ -111,13 +105,11 @@ export const DRAW_TABLE = {
    */
   cornerMm: {
     ...corner,
-    about: "how far corners and tight curves may deviate from the drawing, pen down",
     flag: "--corner",
     default: 0.025,
   },
   jerkMmPerS3: {
     ...jerk,
-    about: "maximum change of acceleration, pen down (scurve)",
     flag: "--jerk",
     default: 10_000,
   },
@@ -127,7 +119,6 @@ export const DRAW_TABLE = {
 export const TRAVEL_TABLE = {
   speedMmPerS: {
     ...speed,
-    about: "maximum speed, pen up",
     flag: "--travel-speed",
     isCommon: true,
     default: 150,
@@ -135,15 +126,13 @@ export const TRAVEL_TABLE = {
   },
   accelMmPerS2: {
     ...accel,
-    about: "acceleration, pen up",
     flag: "--travel-accel",
     default: 1_000,
     slider: [50, 5_000],
   },
-  cornerMm: { ...corner, about: "how far corners may be cut short, pen up", default: 0.5 },
+  cornerMm: { ...corner, default: 0.5 },
   jerkMmPerS3: {
     ...jerk,
-    about: "maximum change of acceleration, pen up (scurve)",
     flag: "--travel-jerk",
     default: 20_000,
   },
@@ -153,8 +142,6 @@ export const MOTION_TABLE = {
   mode: {
     kind: "choice",
     label: "Corners",
-    words: "cornering, junction",
-    about: "how corners are taken",
     flag: "--mode",
     default: "blend",
     choices: MOTION_MODES,
@@ -162,8 +149,6 @@ export const MOTION_TABLE = {
   shaper: {
     kind: "choice",
     label: "Reduce ringing",
-    words: "input shaping, resonance, vibration, wobble",
-    about: "input shaper against the machine's swinging; needs its measured frequencies",
     flag: "--shaper",
     default: "none",
     choices: SHAPERS,
@@ -175,7 +160,6 @@ export const AXIS_TABLE = {
   speedXMmPerS: {
     ...speed,
     label: "Speed along x",
-    about: "maximum speed along x, pen down and up",
     flag: "--speed-x",
     default: 100,
     slider: [5, 400],
@@ -183,7 +167,6 @@ export const AXIS_TABLE = {
   speedYMmPerS: {
     ...speed,
     label: "Speed along y",
-    about: "maximum speed along y, pen down and up",
     flag: "--speed-y",
     default: 100,
     slider: [5, 400],
@@ -191,7 +174,6 @@ export const AXIS_TABLE = {
   accelXMmPerS2: {
     ...accel,
     label: "Acceleration along x",
-    about: "maximum acceleration along x, pen down and up",
     flag: "--accel-x",
     default: 1_000,
     slider: [50, 5_000],
@@ -199,7 +181,6 @@ export const AXIS_TABLE = {
   accelYMmPerS2: {
     ...accel,
     label: "Acceleration along y",
-    about: "maximum acceleration along y, pen down and up",
     flag: "--accel-y",
     default: 1_000,
     slider: [50, 5_000],
@@ -210,8 +191,6 @@ export const FIT_TABLE = {
   toleranceMm: {
     kind: "number",
     label: "Tolerance",
-    words: "deviation, merge",
-    about: "how far merged commands may deviate from the plan",
     default: 0.02,
     min: 0.001,
     max: 1,
@@ -222,7 +201,6 @@ export const FIT_TABLE = {
   floorMs: {
     kind: "number",
     label: "Commands of at least",
-    about: "commands are shorter than this only where the drawing requires it",
     default: 15,
     min: 0,
     max: 200,
@@ -235,7 +213,6 @@ export const EASE_TABLE = {
   lengthMm: {
     kind: "number",
     label: "Length",
-    about: "length of the slow start and end of every stroke",
     default: 1.5,
     min: 0,
     minExcluded: true,
@@ -243,14 +220,13 @@ export const EASE_TABLE = {
     unit: "mm",
     step: 0.5,
   },
-  speedMmPerS: { ...speed, label: "Speed", about: "speed of the slow start and end", default: 10 },
+  speedMmPerS: { ...speed, label: "Speed", default: 10 },
 } as const satisfies SettingsTable;
 
 /** Limit of one motor; matters on mixed machines, where a diagonal loads one motor more. */
 export const MOTOR_ACCEL = {
   kind: "number",
   label: "motor acceleration",
-  about: "maximum acceleration of one motor",
   default: 100_000,
   min: 0,
   minExcluded: true,
@@ -263,7 +239,6 @@ export const MOTOR_ACCEL = {
 export const SPEED_FACTOR = {
   kind: "number",
   label: "Share of the speed",
-  about: "share of the usual speed at which it is drawn",
   default: 1,
   min: MIN_SPEED_FACTOR,
   max: 1,
@@ -306,7 +281,6 @@ export const QUALITY_TABLE = {
   quality: {
     kind: "choice",
     label: "Quality",
-    about: "sets speed, acceleration and corner rounding together, from the machine's measured swing",
     flag: "--quality",
     group: "motion",
     isCommon: true,

@@ -20,8 +20,6 @@ export const PEN_TABLE = {
   upPct: {
     ...height,
     label: "Height up",
-    words: "pen up height, pen up position, servo up, lift height",
-    about: "height while travelling",
     flag: "--pen-up",
     isCommon: true,
     default: 60,
@@ -30,8 +28,6 @@ export const PEN_TABLE = {
   downPct: {
     ...height,
     label: "Height down",
-    words: "pen down height, pen down position, servo down, pressure, depth",
-    about: "height while drawing",
     flag: "--pen-down",
     isCommon: true,
     default: 30,
@@ -41,15 +37,11 @@ export const PEN_TABLE = {
   extraLiftMs: {
     ...extraWait,
     label: "Extra wait after lifting",
-    words: "pen up delay, pen lift time, servo delay",
-    about: "wait longer for the pen to lift than the machine's servo usually takes; negative: less long",
     flag: "--pen-extra-lift-ms",
   },
   extraDropMs: {
     ...extraWait,
     label: "Extra wait after lowering",
-    words: "pen down delay, pen drop time, settle, servo delay",
-    about: "wait longer for the pen to drop than the machine's servo usually takes; negative: less long",
     flag: "--pen-extra-drop-ms",
   },
 } as const satisfies SettingsTable;
@@ -58,14 +50,11 @@ export const PEN_TABLE = {
 export const LIFT_RATE = {
   ...rate,
   label: "Lifting speed",
-  about: "how fast the pen rises",
   default: 60,
 } as const satisfies NumberSetting;
 export const DROP_RATE = {
   ...rate,
   label: "Lowering speed",
-  words: "pen down speed, servo speed",
-  about: "how fast the pen is lowered",
   default: 60,
 } as const satisfies NumberSetting;
 
@@ -77,8 +66,6 @@ export const OVERLAP_TABLE = {
   overlap: {
     kind: "choice",
     label: "Move while the pen lifts",
-    words: "overlap, tails",
-    about: "whether the carriage moves while the pen lifts and lowers clear of the paper",
     flag: "--pen-overlap",
     default: "safe",
     choices: PEN_OVERLAPS,
@@ -87,8 +74,6 @@ export const OVERLAP_TABLE = {
   contactPct: {
     ...height,
     label: "Tip touches at",
-    words: "contact height",
-    about: "share of the lift at which the tip leaves the paper",
     flag: "--pen-contact",
     default: 50,
     slider: [0, 100],
@@ -96,7 +81,6 @@ export const OVERLAP_TABLE = {
   fullHeightMm: {
     kind: "number",
     label: "Full lift for travels from",
-    about: "travels at least this long lift the pen to its full height, shorter ones only clear of the paper",
     flag: "--pen-full-height",
     default: 20,
     min: 0,
@@ -110,7 +94,6 @@ export const OVERLAP_TABLE = {
 export const LAYER_WAIT = {
   kind: "number",
   label: "Wait before the layer",
-  about: "wait with the pen up before the layer's first stroke",
   default: 0,
   min: 0,
   max: 60_000,
@@ -134,7 +117,6 @@ export const PLOT_PEN_TABLE = {
   widthMm: {
     kind: "number",
     label: "Line width",
-    about: "width of the pen's line",
     default: 0.4,
     min: 0,
     minExcluded: true,
@@ -142,6 +124,6 @@ export const PLOT_PEN_TABLE = {
     unit: "mm",
     step: 0.05,
   },
-  offsetXMm: { ...offset, label: "Draws too far right by", about: "how far right of the first pen it draws" },
-  offsetYMm: { ...offset, label: "Draws too far down by", about: "how far below the first pen it draws" },
+  offsetXMm: { ...offset, label: "Draws too far right by" },
+  offsetYMm: { ...offset, label: "Draws too far down by" },
 } as const satisfies SettingsTable;

@@ -32,8 +32,8 @@ const paperSide = { kind: "number", min: 1, max: 5_000, unit: "mm", step: 1 } as
 
 /** Custom paper size, portrait. */
 export const PAPER_TABLE = {
-  widthMm: { ...paperSide, label: "Width", about: "width of the paper in portrait", default: 210 },
-  heightMm: { ...paperSide, label: "Height", about: "height of the paper in portrait", default: 297 },
+  widthMm: { ...paperSide, label: "Width", default: 210 },
+  heightMm: { ...paperSide, label: "Height", default: 297 },
 } as const satisfies SettingsTable;
 
 /** How many sheets the drawing is spread over, in one direction. */
@@ -54,8 +54,6 @@ export const PLACEMENT_ROWS = {
   landscape: {
     kind: "switch",
     label: "Landscape",
-    words: "portrait, orientation",
-    about: "use a named paper size in landscape",
     aboutOff: "use a named paper size in portrait",
     flag: "--landscape",
     group: "paper",
@@ -65,8 +63,6 @@ export const PLACEMENT_ROWS = {
   marginMm: {
     kind: "number",
     label: "Margin",
-    words: "border, edge, padding",
-    about: "free edge around the drawing",
     flag: "--margin",
     group: "paper",
     isCommon: true,
@@ -80,8 +76,6 @@ export const PLACEMENT_ROWS = {
   fit: {
     kind: "switch",
     label: "Fit paper",
-    words: "scale, size, zoom, fit to page, true size",
-    about: "scale the drawing to the paper inside the margins",
     aboutOff: "draw at true size, page corner on paper corner",
     aboutAuto: "true size if the file's page fits the paper, otherwise fitted",
     flag: "--fit",
@@ -92,8 +86,6 @@ export const PLACEMENT_ROWS = {
   pxPerInch: {
     kind: "number",
     label: "Resolution of the file",
-    words: "dpi, ppi, px per inch, pixels, scale",
-    about: "size of the px of a file whose page is given in px",
     aboutAuto: "guessed from the program that wrote the file, otherwise 96",
     flag: "--px-per-inch",
     group: "paper",
@@ -106,9 +98,6 @@ export const PLACEMENT_ROWS = {
   outside: {
     kind: "choice",
     label: "What lies outside the paper",
-    words: "crop, clip, overflow",
-    about:
-      "if the drawing leaves the paper: plot nothing, cut it off at the edge, move it onto the paper, fit it to the paper, or draw it",
     flag: "--outside",
     group: "paper",
     isCommon: true,
@@ -118,8 +107,6 @@ export const PLACEMENT_ROWS = {
   rotateDeg: {
     kind: "number",
     label: "Rotate",
-    words: "turn, angle",
-    about: "turn the drawing clockwise about its middle, before fitting",
     aboutAuto: "90 if the file's page fits the paper only that way, otherwise 0",
     flag: "--rotate",
     group: "paper",
@@ -133,8 +120,6 @@ export const PLACEMENT_ROWS = {
   mirror: {
     kind: "choice",
     label: "Mirror",
-    words: "flip, reflect, reverse",
-    about: "mirror the drawing",
     flag: "--mirror",
     group: "paper",
     default: "none",
@@ -143,8 +128,6 @@ export const PLACEMENT_ROWS = {
   clipToMargins: {
     kind: "switch",
     label: "Cut off what lies outside the margins",
-    words: "clip, crop, mask",
-    about: "cut off what lies outside the margins",
     aboutOff: "draw over the margins",
     flag: "--clip",
     group: "paper",
@@ -153,8 +136,6 @@ export const PLACEMENT_ROWS = {
   cropToPage: {
     kind: "switch",
     label: "Cut off what lies outside the file’s page",
-    words: "clip, crop, artboard",
-    about: "cut off what lies outside the file's own page",
     flag: "--crop-to-page",
     group: "paper",
     default: false,
@@ -162,22 +143,16 @@ export const PLACEMENT_ROWS = {
   tileColumns: {
     ...sheetCount,
     label: "Sheets across",
-    words: "tiles, tiling, poster, large, several sheets, columns",
-    about: "spread the drawing over this many sheets beside each other",
     flag: "--tile-columns",
   },
   tileRows: {
     ...sheetCount,
     label: "Sheets down",
-    words: "tiles, tiling, poster, large, several sheets, rows",
-    about: "spread the drawing over this many sheets below each other",
     flag: "--tile-rows",
   },
   tileOverlapMm: {
     kind: "number",
     label: "Overlap of the sheets",
-    words: "tiles, glue",
-    about: "how much of the drawing neighbouring sheets share",
     flag: "--tile-overlap",
     group: "paper",
     default: 10,
@@ -189,8 +164,6 @@ export const PLACEMENT_ROWS = {
   tileMarks: {
     kind: "switch",
     label: "Marks for cutting the sheets",
-    words: "tiles, crop marks, registration",
-    about: "with several sheets: draw marks in the margins that show where to cut",
     aboutOff: "draw no marks for cutting the sheets",
     flag: "--tile-marks",
     group: "paper",
@@ -199,8 +172,6 @@ export const PLACEMENT_ROWS = {
   tile: {
     kind: "number",
     label: "Sheets to plot",
-    words: "tiles, one sheet again",
-    about: "which of several sheets is plotted, counted row by row; 0: all of them, one after the other",
     flag: "--tile",
     group: "paper",
     default: 0,
@@ -217,8 +188,8 @@ const { marginMm } = PLACEMENT_ROWS;
 
 /** One margin per side. */
 export const MARGINS_TABLE = {
-  topMm: { ...marginMm, about: "free edge at the top of the paper" },
-  rightMm: { ...marginMm, about: "free edge at the right of the paper" },
-  bottomMm: { ...marginMm, about: "free edge at the bottom of the paper" },
-  leftMm: { ...marginMm, about: "free edge at the left of the paper" },
+  topMm: { ...marginMm },
+  rightMm: { ...marginMm },
+  bottomMm: { ...marginMm },
+  leftMm: { ...marginMm },
 } as const satisfies SettingsTable;

@@ -17,7 +17,6 @@ export const HATCH_TABLE = {
   spacingMm: {
     kind: "number",
     label: "Pen width",
-    about: "fill areas with lines this far apart; 0 leaves them empty",
     flag: "--hatch",
     isCommon: true,
     default: 0,
@@ -30,7 +29,6 @@ export const HATCH_TABLE = {
   angleDeg: {
     kind: "number",
     label: "Angle",
-    about: "direction of the hatch lines, clockwise from the x axis",
     flag: "--hatch-angle",
     default: 45,
     min: -360,
@@ -42,7 +40,6 @@ export const HATCH_TABLE = {
   cross: {
     kind: "switch",
     label: "Hatch in both directions",
-    about: "hatch in both directions",
     flag: "--hatch-cross",
     default: false,
   },
@@ -60,8 +57,6 @@ export const PREPARE_TABLE = {
   outlineFills: {
     kind: "switch",
     label: "Draw the outline of filled shapes",
-    words: "stroke, border",
-    about: "draw the outline of shapes that are only filled",
     flag: "--outline-fills",
     group: "drawing",
     default: true,
@@ -69,7 +64,6 @@ export const PREPARE_TABLE = {
   hatchOutlines: {
     kind: "switch",
     label: "Fill closed outlines too",
-    about: "when hatching: fill closed lines too, not only filled shapes",
     flag: "--hatch-outlines",
     group: "drawing",
     default: false,
@@ -77,8 +71,6 @@ export const PREPARE_TABLE = {
   hideCovered: {
     kind: "switch",
     label: "Hide lines under filled shapes",
-    words: "occlusion, hidden lines, overlap",
-    about: "leave out lines under shapes that are painted later",
     flag: "--hide-covered",
     group: "drawing",
     isCommon: true,
@@ -87,8 +79,6 @@ export const PREPARE_TABLE = {
   joinMm: {
     kind: "number",
     label: "Join ends closer than",
-    words: "merge lines, connect, weld",
-    about: "join ends that are closer than this",
     flag: "--join",
     isCommon: true,
     panel: "lines",
@@ -102,8 +92,6 @@ export const PREPARE_TABLE = {
   dropShorterMm: {
     kind: "number",
     label: "Skip strokes shorter than",
-    words: "filter, tiny, dots, remove short",
-    about: "leave out strokes shorter than this; 0 keeps dots too",
     flag: "--drop-shorter",
     panel: "lines",
     default: 0,
@@ -116,8 +104,6 @@ export const PREPARE_TABLE = {
   dropRepeatsMm: {
     kind: "number",
     label: "Leave out repeats within",
-    words: "duplicates, double lines, deduplicate",
-    about: "leave out lines already drawn within this distance; 0 keeps all",
     flag: "--drop-repeats",
     panel: "lines",
     default: 0,
@@ -130,8 +116,6 @@ export const PREPARE_TABLE = {
   simplifyMm: {
     kind: "number",
     label: "Simplify within",
-    words: "reduce points, optimise, optimize",
-    about: "drop points closer than this to the line (Douglas–Peucker)",
     flag: "--simplify",
     panel: "lines",
     default: 0,
@@ -144,8 +128,6 @@ export const PREPARE_TABLE = {
   flattenMm: {
     kind: "number",
     label: "Curve smoothness",
-    words: "flatten, resolution, segments, tolerance",
-    about: "maximum gap between a curve and its chords, on paper",
     flag: "--flatten",
     panel: "lines",
     default: 0.02,
@@ -158,8 +140,6 @@ export const PREPARE_TABLE = {
   smoothRounds: {
     kind: "number",
     label: "Smoothing, rounds",
-    words: "soften",
-    about: "rounds of corner cutting (Chaikin); each round doubles the number of points",
     flag: "--smooth",
     panel: "lines",
     default: 0,
@@ -173,7 +153,6 @@ export const PREPARE_TABLE = {
   reloop: {
     kind: "switch",
     label: "Begin closed lines at a random point",
-    about: "begin closed strokes at a random point",
     flag: "--reloop",
     panel: "lines",
     default: false,
@@ -181,8 +160,6 @@ export const PREPARE_TABLE = {
   order: {
     kind: "choice",
     label: "Order of strokes",
-    words: "sort, optimise, optimize, travel, reorder",
-    about: "order of strokes",
     flag: "--order",
     isCommon: true,
     default: "fast",
@@ -191,7 +168,6 @@ export const PREPARE_TABLE = {
   orderS: {
     kind: "number",
     label: "Search time",
-    about: "how long the search for the best order may take",
     flag: "--order-s",
     default: 9,
     min: 0,
@@ -202,8 +178,6 @@ export const PREPARE_TABLE = {
   spread: {
     kind: "choice",
     label: "Let ink dry",
-    words: "shuffle, smear, bleed",
-    about: "draw neighbouring strokes at different times, so that ink dries",
     flag: "--spread",
     default: "none",
     choices: SPREAD_MODES,
@@ -211,8 +185,6 @@ export const PREPARE_TABLE = {
   reinkMm: {
     kind: "number",
     label: "Take up ink every",
-    words: "refill, dip, brush, paint",
-    about: "stop after this length of drawing, to take up ink; 0: never",
     flag: "--reink",
     default: 0,
     min: 0,
@@ -223,8 +195,6 @@ export const PREPARE_TABLE = {
   layers: {
     kind: "choice",
     label: "Layers from",
-    words: "groups, colours, colors, sublayers",
-    about: "what makes a layer",
     flag: "--layers",
     group: "drawing",
     default: "group",
@@ -236,7 +206,6 @@ export const PREPARE_TABLE = {
 export const LAYER_REPEATS = {
   kind: "number",
   label: "Draw it",
-  about: "how often the layer is drawn",
   default: 1,
   min: 1,
   max: 20,

@@ -10,10 +10,6 @@ export type SettingGroup = (typeof SETTING_GROUPS)[number];
 interface Described {
   /** Shown on the page. */
   readonly label: string;
-  /** Shown on the command line and in its documentation. */
-  readonly about: string;
-  /** Other words that people use for it, by phrases, for the page's search. */
-  readonly words?: string;
   /** "--margin"; left out: the command line has no option for it. */
   readonly flag?: string;
   /** What the user decides with it, if it differs from the rest of its table. */
@@ -99,12 +95,3 @@ export const takesAuto = (row: Setting): boolean => row.kind !== "choice" && row
 /** What a row whose default is "auto" takes, as text: '"auto", or -360 to 360 °'. */
 export const orAutoInWords = (row: Setting): string =>
   row.kind === "number" ? `"auto", or ${rangeInWords(row)}` : '"auto", true or false';
-
-/** A row in sentences: "Free edge around the drawing (0 to 1000 mm). Default 15." */
-export function meaningInWords(row: Setting, withDefault: boolean): string {
-  const about = `${row.about.charAt(0).toUpperCase()}${row.about.slice(1)}`;
-  const range = takesAuto(row) ? orAutoInWords(row) : row.kind === "number" ? rangeInWords(row) : "";
-  const initial = typeof row.default === "string" ? `"${row.default}"` : String(row.default);
-  const why = row.aboutAuto === undefined ? "" : `: ${row.aboutAuto}`;
-  return `${about}${range === "" ? "" : ` (${range})`}.${withDefault ? ` Default ${initial}${why}.` : ""}`;
-}

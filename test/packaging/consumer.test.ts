@@ -8,7 +8,7 @@ import ts from "typescript-6";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { ROOT } from "../../scripts/setup.mjs";
 import { MACHINES, PAPER_SIZES } from "../../src/index.js";
-import { rangeInWords } from "../../src/internal.js";
+import { aboutOf, rangeInWords } from "../../src/internal.js";
 import { SETTINGS_TABLES } from "../../src/settings/tables.js";
 
 const folder = mkdtempSync(path.join(tmpdir(), "plotwright-consumer-"));
@@ -127,7 +127,7 @@ describe("the types of the settings", () => {
     const texts = hovers([WITH_IMPORTS, ...calls].join("\n"));
     expect(texts.length).toBe(calls.length);
     [...inPlan, ...ROWS].forEach(({ at, row }, i) => {
-      expect(`${at}: ${texts[i].toLowerCase()}`).toContain(row.about.toLowerCase());
+      expect(`${at}: ${texts[i].toLowerCase()}`).toContain(aboutOf(row).toLowerCase());
       if (row.kind === "number") expect(texts[i]).toContain(rangeInWords(row));
       expect(texts[i]).toContain(`Default ${JSON.stringify(row.default)}`);
     });

@@ -3,6 +3,7 @@
  * tables; words are added here only for fields without a row.
  */
 import {
+  aboutOf,
   AXIS_TABLE,
   DRAW_TABLE,
   DROP_RATE,
@@ -19,6 +20,7 @@ import {
   findMachine,
   tileCount,
   type Setting,
+  wordsOf,
 } from "../../src/internal.js";
 import { drawingText, fillText, linesText, paperText, tilesText } from "../drawing/text.js";
 import { isCustomPaper } from "../drawing/paper.js";
@@ -105,7 +107,7 @@ const row = (where: PlaceName, setting: Setting, more: Partial<Named> = {}, lege
   const added = more.words === undefined ? "" : `${more.words}, `;
   return field(
     where,
-    { label: setting.label, ...more, words: `${added}${setting.words ?? ""}, ${setting.about}` },
+    { label: setting.label, ...more, words: `${added}${wordsOf(setting)}, ${aboutOf(setting)}` },
     legend,
   );
 };
@@ -129,14 +131,14 @@ const PAPER: readonly Field[] = [
   }),
   field("paper", {
     label: paperText.orientation,
-    words: `${PREPARE_TABLE.landscape.words}, ${PREPARE_TABLE.landscape.label}`,
+    words: `${wordsOf(PREPARE_TABLE.landscape)}, ${PREPARE_TABLE.landscape.label}`,
   }),
   row("paper", PREPARE_TABLE.marginMm, {
     instead: unless(({ settings }) => settings.prepare.margins === null, at("paperMore", paperText.margins)),
   }),
   field("paper", {
     label: paperText.placement,
-    words: `${PREPARE_TABLE.fit.words}, ${PREPARE_TABLE.fit.about}`,
+    words: `${wordsOf(PREPARE_TABLE.fit)}, ${aboutOf(PREPARE_TABLE.fit)}`,
     ...ifOneDrawing,
   }),
   row("paper", PREPARE_TABLE.pxPerInch, {
@@ -261,7 +263,7 @@ const PEN: readonly Field[] = [
   }),
   row("pen", PEN_TABLE.extraLiftMs),
   row("pen", PEN_TABLE.extraDropMs),
-  field("pen", { label: heightsText.gentle, words: DROP_RATE.words, ...ifGentle }),
+  field("pen", { label: heightsText.gentle, words: wordsOf(DROP_RATE), ...ifGentle }),
   row("pen", DROP_RATE, {
     instead: unless(({ settings }) => Boolean(settings.pen.dropPctPerS), at("pen", heightsText.gentle)),
     ...ifGentle,

@@ -62,7 +62,7 @@ describe("the settings tables", () => {
   });
 
   it("explain in words what is allowed", () => {
-    const row: NumberSetting = { kind: "number", label: "", about: "", default: 1, min: 0, max: 5, unit: "mm", step: 1 }; // prettier-ignore
+    const row: NumberSetting = { kind: "number", label: "", default: 1, min: 0, max: 5, unit: "mm", step: 1 }; // prettier-ignore
     expect(rangeInWords(row)).toBe("0 to 5 mm");
     expect(rangeInWords({ ...row, minExcluded: true })).toBe("more than 0, up to 5 mm");
     expect(rangeInWords({ ...row, isWhole: true, unit: "" })).toBe("a whole number, 0 to 5");

@@ -1,5 +1,6 @@
 /** What the search finds for the words that people use. */
 import { describe, expect, it } from "vitest";
+import { aboutOf, wordsOf } from "../../../src/internal.js";
 import { bestMatches, type Searched } from "../../../src/settings/matching.js";
 import { SETTINGS_TABLES } from "../../../src/settings/tables.js";
 import { PAGE_ACTIONS } from "../../../web/app/page-actions.js";
@@ -80,7 +81,7 @@ describe("every setting of the tables", () => {
   it.each(shown)("is found by its name: $path", ({ path, row }) => {
     const label = RENAMED[path] ?? row.label;
     const fields = FIELDS.filter((field) => field.label === label);
-    const expected = path in RENAMED ? (row.words ?? row.about) : row.about;
+    const expected = path in RENAMED ? wordsOf(row) || aboutOf(row) : aboutOf(row);
     expect(fields.map(({ words }) => words)).toContainEqual(expect.stringContaining(expected));
   });
 });

@@ -1,7 +1,12 @@
 /** The fields of a machine profile for its Grbl. */
 import { PlotwrightError } from "../../../errors.js";
-import type { Controller, MachineProfile } from "../../../machines/profile.js";
-import type { Setting, SettingsTable, ValuesOf } from "../../../settings/setting.js";
+import type {
+  Controller,
+  ControllerFields,
+  ControllerSetting,
+  MachineProfile,
+} from "../../../machines/profile.js";
+import type { ValuesOf } from "../../../settings/setting.js";
 import type { GrblAxisLimits } from "./planner.js";
 
 const speed = { kind: "number", min: 0, minExcluded: true, max: 1_000, unit: "mm/s", step: 1 } as const;
@@ -24,9 +29,9 @@ const LIMIT_FIELDS = {
     step: 0.01,
     digits: 3,
   },
-} as const satisfies SettingsTable;
+} as const satisfies ControllerFields;
 
-type OptionalFields = Readonly<Record<string, Setting & { readonly isOptional: true }>>;
+type OptionalFields = Readonly<Record<string, ControllerSetting & { readonly isOptional: true }>>;
 
 /** Of the Grbl's own axes. Left out: that of X. */
 const Y_FIELDS = {
