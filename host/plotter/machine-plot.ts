@@ -271,6 +271,8 @@ export class MachinePlot implements RunningPlot {
       );
     }
     await this.liftPenIfDown();
+    // Found on the machine, and no longer so once something moves it.
+    if (this.holdPlace) this.reports.writeJournal(this.holdPlace);
     for (;;) {
       if (this.requested === "run" && this.stops.due(this.holdPlace)) this.requested = "hold";
       if (this.requested === "hold") await this.hold();

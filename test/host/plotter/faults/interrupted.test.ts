@@ -3,7 +3,7 @@
  * and no more is drawn twice than the board can have drawn since its last certain position.
  */
 import { describe, expect, it } from "vitest";
-import type { JournalEntry } from "../../../../host/plotter/plotter-port.js";
+import type { JournalEntry, PlotStart, RunningPlot } from "../../../../host/plotter/plotter-port.js";
 import type { Devices } from "../../../../host/plotter/devices.js";
 import { PlotterConnection as HostDriver } from "../../../../host/plotter/plotter-connection.js";
 import { VirtualBoard, type PlotwrightError, type StrokeSet, type Transport } from "../../../../src/index.js";
@@ -47,6 +47,8 @@ const ROUND_AND_ROUND = strokesOf(
   ]).flat(),
 );
 const STRAIGHT = strokesOf([10, 10, 200, 10], [200, 20, 10, 90]);
+/** The length of its last stroke. */
+const LAST_MM = Math.hypot(190, 70);
 
 /** The host reads each reply that much later. */
 function withLateReplies(transport: Transport, clock: ManualClock, lateS: number): Transport {
@@ -237,10 +239,17 @@ describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);
     const { place: from, received, run: before } = journal[journal.length - 1];
-    const holdPlace = async (): Promise<number> => {
-      const again = await world.run(
-        driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, { from, received, run: before }),
+    const resume = (start: PlotStart = {}): Promise<RunningPlot> =>
+      world.run(
+        driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, {
+          from,
+          received,
+          run: before,
+          ...start,
+        }),
       );
+    const holdPlace = async (): Promise<number> => {
+      const again = await resume();
       const place = again.holdPlace!;
       await world.run(Promise.all([again.cancel(), again.finished]));
       return mmOf(STRAIGHT, place);
@@ -249,13 +258,24 @@ describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
       virtualBoardOf(driver).unplug();
       await world.advance(5);
     };
-    return { world, driver, fromMm: mmOf(STRAIGHT, from), holdPlace, reconnect };
+    return { world, driver, fromMm: mmOf(STRAIGHT, from), resume, holdPlace, reconnect };
   }
 
   it("is that of the plot after it was found a second time", async () => {
     const { fromMm, holdPlace, reconnect } = await killedOnLine(2);
     await reconnect();
     expect(await holdPlace()).toBeGreaterThan(fromMm + GAP_MM);
+  });
+
+  it("is stored before it is left, also if there is no hold and nothing more is drawn", async () => {
+    const { world, fromMm, resume } = await killedOnLine(8.8);
+    const entries: JournalEntry[] = [];
+    const run = await resume({ held: false, journal: { record: (entry) => entries.push(entry) } });
+    await world.advance(0.3);
+    const end = { stroke: 1, alongMm: LAST_MM };
+    expect(fromMm).toBeLessThan(mmOf(STRAIGHT, end) - GAP_MM);
+    expect(entries.at(-1)?.place).toEqual(end);
+    await world.run(run.finished);
   });
 
   it("is not that of another plot that was interrupted since", async () => {
