@@ -154,6 +154,7 @@ function firstPass(passes: readonly Pass[], { nearMm, offLineMm }: MotionSince):
   let found: Pass | null = null;
   for (const pass of passes) {
     if (found !== null) {
+      // The side after the one on which the first pass ends; `at` and `until` count points from the stroke's start.
       const isNextSide = Math.ceil(pass.at) === Math.floor(found.until) + 2;
       const apartMm = pass.alongMm - found.alongMm;
       const isOnSide = pass.awayMm <= offLineMm && found.awayMm > offLineMm;

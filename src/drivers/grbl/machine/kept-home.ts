@@ -21,7 +21,7 @@ export interface GrblMemory {
 
 const AT_ZERO = 73;
 const AT_SWITCHES = 74;
-/** More than these in a plot. */
+/** Added to either of them while an unfinished plot moved the carriage last. */
 const IN_PLOT = 2;
 /** A carriage that is farther out than this has not come there by plotting from that home, mm. */
 const OUTSIDE_MM = 1;

@@ -225,8 +225,7 @@ it("a plot whose server is killed on a line that retraces itself resumes from th
 });
 
 describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
-  /** A killed server writes nothing at its end; the board plays what it has, and is found again. */
-  async function killedOnLine(afterS: number) {
+  async function begunOnLine(afterS: number) {
     const { world, driver } = await virtualPlotter({ firmware });
     const journal: JournalEntry[] = [];
     const record = (entry: JournalEntry): void => void journal.push(entry);
@@ -235,6 +234,12 @@ describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
     );
     await underWay(world, journal);
     await world.advance(afterS);
+    return { world, driver, journal, run };
+  }
+
+  /** A killed server writes nothing at its end; the board plays what it has, and is found again. */
+  async function killedOnLine(afterS: number) {
+    const { world, driver, journal, run } = await begunOnLine(afterS);
     virtualBoardOf(driver).unplug();
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);
@@ -288,14 +293,7 @@ describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
   });
 
   it("is the chosen one after a pause, also with the pen on the paper", async () => {
-    const { world, driver } = await virtualPlotter({ firmware });
-    const journal: JournalEntry[] = [];
-    const record = (entry: JournalEntry): void => void journal.push(entry);
-    const run = await world.run(
-      driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, { journal: { record } }),
-    );
-    await underWay(world, journal);
-    await world.advance(2);
+    const { world, driver, journal, run } = await begunOnLine(2);
     await world.run(run.pause());
     const chosen = run.moveHoldPlace({ mm: -20 });
     await world.run(run.movePenAtHold(false));
