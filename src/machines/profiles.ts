@@ -73,7 +73,7 @@ const DRAWCORE = {
   penAccelMmPerS2: 3_000,
   penWaitMs: 100,
 };
-const GENERIC_GRBL = { kind: "grbl", maxSpeedMmPerS: 100, accelMmPerS2: 500, junctionMm: 0.01 };
+const GENERIC_GRBL = { kind: "grbl", maxSpeedMmPerS: 100, accelMmPerS2: 500, junctionMm: 0.01, arcs: true };
 const GRBL_SERVO = { ...GENERIC_GRBL, penUpS: 600, penDownS: 300 };
 const GRBL_Z = {
   ...GENERIC_GRBL,

@@ -2,7 +2,7 @@
 import type { ControllerDescription } from "../driver.js";
 import { findsHome, GRBL_FIELDS } from "./model/grbl-controller.js";
 import { LIFT_CHOICE, liftFault } from "./model/pen-lift.js";
-import { isOwnVersion } from "./protocol.js";
+import { isOwnVersion, takesArcs } from "./protocol.js";
 import { UNUSED_SETTINGS } from "./unused-settings.js";
 
 export const description: ControllerDescription = {
@@ -26,10 +26,10 @@ export const description: ControllerDescription = {
     // Espressif: the USB port of an ESP32-S3.
     { vendorId: "303a" },
   ],
-  // The plan does not depend on the version.
   firmware: {
     isOwn: isOwnVersion,
-    isPlannedAlike: () => true,
+    // The version says only whether there are arcs.
+    isPlannedAlike: (_, a, b) => takesArcs(a) === takesArcs(b),
     advice: () => null,
   },
   consoleExamples: ["$$", "$#", "$I"],

@@ -11,14 +11,18 @@ import { strokeLengthMm } from "../../position/on-drawing.js";
 import { NO_PENS, penOf, penStopsOf, type PenSetup } from "../../prepare/layers/pens.js";
 import type { PenSettings } from "../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from "../machine-job.js";
+import { ARC_TOLERANCE_MM } from "./model/arc-cut.js";
 import { axisLimits, dwellS, grblOf } from "./model/grbl-controller.js";
 import { GrblRuns, type SentMove } from "./model/grbl-runs.js";
 import { number, penLiftOf, waitLine, type PenLift } from "./model/pen-lift.js";
 import { QUEUE_MOVES, type Axes, type GrblAxisLimits } from "./model/planner.js";
+import { takesArcs } from "./protocol.js";
 
 /** Lines of G-code. The reply to the last one comes when everything is done. */
 export interface GrblCommands extends MachineCommands {
   readonly lines: readonly string[];
+  /** How many moves in the Grbl's queue each line becomes. */
+  readonly moveCounts: readonly number[];
   /** The layer that begins at a line, by the line's index. */
   readonly layerAt: ReadonlyMap<number, StrokeLayer>;
 }
@@ -38,6 +42,8 @@ export interface GrblState {
   /** Its own limits. */
   readonly limits: GrblAxisLimits;
   readonly queueMoves: number;
+  /** How far its moves may be from an arc. */
+  readonly arcToleranceMm: number;
 }
 
 /** mm, absolute coordinates, mm/min. Sent again after a reset, which may change these modes. */
@@ -53,13 +59,16 @@ export function planGrblJob(
   machine: MachineProfile,
   options: DriverPlanOptions,
 ): MachineJob<GrblCommands> {
+  const grbl = grblOf(machine);
   const {
-    limits = axisLimits(grblOf(machine)),
+    limits = axisLimits(grbl),
     zero = [0, 0, 0],
     queueMoves = QUEUE_MOVES,
+    arcToleranceMm = ARC_TOLERANCE_MM,
   } = (options.board ?? {}) as Partial<GrblState>;
   const lift = penLiftOf(machine, limits, zero[2]);
-  const runs = new GrblRuns(machine, limits, queueMoves);
+  const drawsArcs = grbl.arcs === true && takesArcs(options.firmware ?? null);
+  const runs = new GrblRuns(machine, limits, queueMoves, drawsArcs ? arcToleranceMm : null);
   const trajectory = plan(strokes, { ...motion, mode: "junction", shaper: "none" }, penAtRest(pen), {
     servo: lift.servo,
     from: options.from ? undrawn(strokes, options.from, 1 / machine.stepsPerMm) : undefined,
@@ -176,9 +185,11 @@ function writeCommands(
 ): GrblCommands {
   const lines: string[] = [];
   const planS: number[] = [];
-  const add = (line: string, atS: number): void => {
+  const moveCounts: number[] = [];
+  const add = (line: string, atS: number, moveCount = 1): void => {
     lines.push(line);
     planS.push(atS);
+    moveCounts.push(moveCount);
   };
   const penMoves = penMovesOf(trajectory);
   const layerAt = new Map<number, StrokeLayer>();
@@ -209,8 +220,9 @@ function writeCommands(
     const moves = runs[run] ?? [];
     for (const move of moves) {
       const [x, y] = [move.x + zero[0], move.y + zero[1]];
-      const { startS } = move;
-      add(`G1X${number(x)}Y${number(y)}${move.feed === feed ? "" : `F${number(move.feed)}`}`, startS);
+      const to = `X${number(x)}Y${number(y)}`;
+      const feedWord = move.feed === feed ? "" : `F${number(move.feed)}`;
+      add(`${motionWord(move)}${to}${centreWords(move)}${feedWord}`, move.startS, move.moveCount);
       feed = move.feed;
     }
     // Wait for rest, as planned: otherwise Grbl's planner would continue into the next run without a stop.
@@ -222,6 +234,11 @@ function writeCommands(
     planS: Float64Array.from([...planS, trajectory.totalS]),
     warnings: [],
     lines,
+    moveCounts,
     layerAt,
   };
 }
+
+const motionWord = ({ arc }: SentMove): string => (!arc ? "G1" : arc.clockwise ? "G2" : "G3");
+
+const centreWords = ({ arc }: SentMove): string => (arc ? `I${number(arc.i)}J${number(arc.j)}` : "");

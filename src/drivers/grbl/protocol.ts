@@ -33,6 +33,9 @@ export const isGreeting = (line: string): boolean => GREETING.test(line);
 /** Whether a version names one of them. */
 export const isOwnVersion = (version: string): boolean => /^(Grbl|grblHAL|FluidNC|DrawCore) /.test(version);
 
+/** Whether a board of that version takes arcs, if its profile says so; null: unknown. A DrawCore does not. */
+export const takesArcs = (version: string | null): boolean => !version?.startsWith("DrawCore");
+
 /**
  * The version in a greeting or in the reply to `$I`: "Grbl 1.1h", "grblHAL 1.1f", "FluidNC 3.7.16", "DrawCore 2.09"; null if
  * the line has none.
@@ -196,9 +199,12 @@ const ERRORS: Readonly<Record<number, string>> = {
 /** `reply`: "error:20", for example. */
 export function refusal(line: string, reply: string): PlotwrightError {
   const why = ERRORS[Number(reply.slice(6))];
+  const advice = /^G[23]/.test(line)
+    ? "switch off in the machine's profile that it draws arcs"
+    : "check the machine's profile against its settings ($$)";
   return new PlotwrightError(
     "board-error",
-    `The Grbl refused ${line} with ${reply}${why ? ` (${why})` : ""}. If that happens again, check the machine's profile against its settings ($$).`,
+    `The Grbl refused ${line} with ${reply}${why ? ` (${why})` : ""}. If that happens again, ${advice}.`,
   );
 }
 

@@ -40,6 +40,7 @@ export const GRBL = {
     maxSpeedMmPerS: 10_000 / 60,
     accelMmPerS2: 1_000,
     junctionMm: 0.01,
+    arcs: true,
     penUpZMm: 5,
     penDownZMm: 0,
     penSpeedMmPerS: 50,
@@ -48,10 +49,16 @@ export const GRBL = {
   },
 } as const satisfies MachineProfile<GrblController>;
 
+/** The same for a DrawCore, which refuses arcs. */
+export const withoutArcs = (machine: MachineProfile): MachineProfile => ({
+  ...machine,
+  controller: { ...machine.controller, arcs: false },
+});
+
 /** The same with another pen lift. */
 const withPen = (pen: Partial<GrblController>): MachineProfile<GrblController> => {
-  const { kind, maxSpeedMmPerS, accelMmPerS2, junctionMm } = GRBL.controller;
-  return { ...GRBL, controller: { kind, maxSpeedMmPerS, accelMmPerS2, junctionMm, ...pen } };
+  const { kind, maxSpeedMmPerS, accelMmPerS2, junctionMm, arcs } = GRBL.controller;
+  return { ...GRBL, controller: { kind, maxSpeedMmPerS, accelMmPerS2, junctionMm, arcs, ...pen } };
 };
 /** A servo on the output of the spindle. */
 export const GRBL_SERVO = withPen({ penUpS: 600, penDownS: 300 });

@@ -14,7 +14,7 @@ import {
   type Transport,
 } from "../../../src/index.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../../src/schema/index.js";
-import { GRBL, NO_EVENTS } from "../machines/machine.js";
+import { GRBL, NO_EVENTS, withoutArcs } from "../machines/machine.js";
 import { DRAWING } from "./live-plot.js";
 import { LocalPlanner } from "./local-planner.js";
 import { ManualClock } from "../clocks/manual-clock.js";
@@ -22,6 +22,11 @@ import { outcome } from "./virtual-plotter.js";
 
 /** Settings for a machine with a Grbl. */
 export const SETTINGS: PlotSettings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
+const settingsOf = (machine: MachineProfile): PlotSettings => ({ ...SETTINGS, customMachine: machine });
+/** The profile of a machine that has one of Grbl's children. */
+export const machineWith = ({ face }: VirtualGrblOptions, machine: MachineProfile = GRBL): MachineProfile =>
+  face === "DrawCore" ? withoutArcs(machine) : machine;
+export const settingsWith = (options: VirtualGrblOptions): PlotSettings => settingsOf(machineWith(options));
 /** Longer than any of these takes, s. */
 export const LIMIT_S = 60;
 
@@ -84,7 +89,7 @@ class WeakLine implements Transport {
 }
 
 /** `options`: what differs from an ordinary Grbl. */
-export async function newPlotter(options: VirtualGrblOptions = {}, machine: MachineProfile = GRBL) {
+export async function newPlotter(options: VirtualGrblOptions = {}, machine = machineWith(options)) {
   const world = new ManualClock();
   const board = new VirtualGrbl({ clock: world, speed: 1, machine }, options);
   return { world, board, ...(await plotterOn(board, world, machine)) };
@@ -105,12 +110,15 @@ export async function plotterOn(board: VirtualGrbl, world: ManualClock, machine:
   const driver = new PlotterConnection({
     device: "a port",
     clock: world,
-    settings: { ...SETTINGS, customMachine: machine },
+    settings: settingsOf(machine),
     devices: { find: () => Promise.resolve([]), open },
   });
   await world.run(driver.start());
-  const begin = async (planner = new LocalPlanner(DRAWING), start: PlotStart = {}, settings = SETTINGS) =>
-    world.run(driver.plot(planner, settings, start));
+  const begin = async (
+    planner = new LocalPlanner(DRAWING),
+    start: PlotStart = {},
+    settings = settingsOf(machine),
+  ) => world.run(driver.plot(planner, settings, start));
   const within = <T>(work: Promise<T>): Promise<unknown> => outcome(world.run(work, LIMIT_S));
   /** Nothing is heard of the board, also after connecting again. */
   const setSilent = (silent: boolean): void => {

@@ -4,8 +4,10 @@
  */
 import { PlotwrightError } from "../../../errors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
+import { ARC_TOLERANCE_MM } from "../model/arc-cut.js";
 import { axisLimits, GRBL_FIELDS, grblOf } from "../model/grbl-controller.js";
-import type { Axes, GrblAxisLimits } from "../model/planner.js";
+import { difference, type Axes, type GrblAxisLimits } from "../model/planner.js";
+import { rangeOf, reachOf, type Range } from "./reach.js";
 
 const AXES = ["X", "Y", "Z"] as const;
 const MM_PER_INCH = 25.4;
@@ -15,6 +17,7 @@ const SAME = 0.01;
 /** The numbers of the settings. Those of an axis follow each other in the order X, Y, Z. */
 const SETTING = {
   junctionMm: 11,
+  arcTolerance: 12,
   reportInches: 13,
   softLimits: 20,
   homing: 22,
@@ -26,9 +29,6 @@ const SETTING = {
   accel: 120,
   travel: 130,
 } as const;
-
-/** The lowest and the highest position of one axis in a job's lines, mm from the work zero. */
-type Range = readonly [min: number, max: number];
 
 export class BoardSettings {
   private readonly values = new Map<number, number>();
@@ -55,6 +55,10 @@ export class BoardSettings {
   /** It locks itself at each start, until it is homed. */
   get hasHoming(): boolean {
     return this.isOn(SETTING.homing);
+  }
+
+  get arcToleranceMm(): number {
+    return this.values.get(SETTING.arcTolerance) ?? ARC_TOLERANCE_MM;
   }
 
   /** Where the search for the switches ends, in machine coordinates; null: it does not say. */
@@ -105,10 +109,13 @@ export class BoardSettings {
     );
   }
 
-  /** Throws if the Grbl would not perform lines as they are meant. `offset`: the work zero in machine coordinates. */
-  mustPerform(lines: readonly string[], offset: Axes): void {
+  /**
+   * Throws if the Grbl would not perform lines as they are meant. In machine coordinates, `offset`: the work zero; `at`:
+   * where it stands, which only arcs depend on.
+   */
+  mustPerform(lines: readonly string[], offset: Axes, at = offset): void {
     this.mustSignal(lines);
-    this.mustReach(lines, offset);
+    this.mustReach(lines, offset, at);
   }
 
   /** Throws `bad-setting` if the servo would not follow its lines. */
@@ -134,11 +141,12 @@ export class BoardSettings {
   /**
    * Throws `out-of-bounds` if lines leave the soft limits, at which the Grbl would stop with an alarm.
    */
-  private mustReach(lines: readonly string[], offset: Axes): void {
+  private mustReach(lines: readonly string[], offset: Axes, at: Axes): void {
     if (!this.isOn(SETTING.softLimits)) return;
+    const reach = reachOf(lines, difference(at, offset));
     AXES.forEach((letter, axis) => {
       const limits = this.limitsOf(axis);
-      const range = rangeOf(lines, letter);
+      const range = reach[axis];
       if (!limits || !range) return;
       const [min, max] = [limits[0] - offset[axis], limits[1] - offset[axis]];
       if (range[0] >= min - 1e-6 && range[1] <= max + 1e-6) return;
@@ -174,15 +182,3 @@ const lower = (what: string, unit: string, own: number, asked: number, setting: 
     : [`${what} is at most ${mm(own)} ${unit} ($${setting})`];
 
 const mm = (value: number): string => String(Number(value.toFixed(3)));
-
-function rangeOf(lines: readonly string[], letter: string): Range | null {
-  const word = new RegExp(`${letter}(-?[\\d.]+)`);
-  let [min, max] = [Infinity, -Infinity];
-  for (const line of lines) {
-    const match = word.exec(line);
-    if (!match) continue;
-    min = Math.min(min, Number(match[1]));
-    max = Math.max(max, Number(match[1]));
-  }
-  return min <= max ? [min, max] : null;
-}

@@ -302,7 +302,7 @@ export class GrblMachine implements Machine {
     commands: GrblCommands,
     onHeld: (state: string) => void = () => this.options.events.buttonPressed(),
   ): LineStream {
-    this.session.settings.mustPerform(commands.lines, this.session.offset);
+    this.session.settings.mustPerform(commands.lines, this.session.offset, this.machineAt);
     this.motorsOn = true;
     this.foundMidPlot = null;
     this.pen.setState(null);
@@ -412,6 +412,7 @@ export class GrblMachine implements Machine {
       zero: [x, y, this.pen.zeroInWorkMm],
       limits: this.session.settings.limitsFor(profile),
       queueMoves: this.session.queueMoves,
+      arcToleranceMm: this.session.settings.arcToleranceMm,
     };
   }
 

@@ -9,6 +9,12 @@ import { CHECK, isChecking, isHeld, isJogging, otherProgram, type Status } from 
 import { brake } from "./braking.js";
 import type { GrblSession } from "./session.js";
 
+/**
+ * What may be sent before it is accepted, s: the less of it, the more certain is the place if the connection ends. A large
+ * buffer would hold minutes.
+ */
+const AHEAD_S = 1;
+
 export class LineStream {
   /** Index of the next line to send. */
   private next = 0;
@@ -84,16 +90,13 @@ export class LineStream {
   get planS(): number {
     const { planS } = this.commands;
     const nowS = this.known.planS + (this.stopS ?? this.clock.nowS()) - this.known.clockS;
-    return Math.min(
-      Math.max(nowS, planS[Math.max(0, this.answeredCount - this.session.queueMoves)]),
-      this.takenS,
-    );
+    return Math.min(Math.max(nowS, planS[this.firstUndone(this.session.queueMoves)]), this.reachedS);
   }
 
   /** Estimated positions every `stepS` from now, at most `count`, no further than the accepted lines. None once it stops. */
   timesAhead(stepS: number, count: number): number[] {
     const fromS = this.planS;
-    const steps = this.isOver ? 0 : Math.min(count, Math.floor((this.takenS - fromS) / stepS));
+    const steps = this.isOver ? 0 : Math.min(count, Math.floor((this.reachedS - fromS) / stepS));
     return Array.from({ length: steps }, (_, k) => fromS + (k + 1) * stepS);
   }
 
@@ -113,14 +116,20 @@ export class LineStream {
     const { planS, count } = this.commands;
     // Which lines were executed after a missed one is unknown.
     if (this.missedS !== null) return [this.certainS, planS[this.next]];
-    const from = Math.max(0, this.answeredCount - this.session.queueMoves - 1);
+    const from = this.firstUndone(this.session.queueMoves + 1);
     return [Math.max(planS[from], this.known.planS), planS[Math.min(count, this.answeredCount + 2)]];
   }
 
-  /** The ends of the straight line that replaces a refused line and the next one, seconds along the plan. */
+  /**
+   * The ends of the straight line that replaces a refused line and those up to the next straight one, seconds along the plan.
+   * Arcs between them are refused too, because they begin elsewhere.
+   */
   get shortCutS(): readonly [fromS: number, toS: number] | null {
-    const { planS, count } = this.commands;
-    return this.refused < 0 ? null : [planS[this.refused], planS[Math.min(count, this.refused + 2)]];
+    const { planS, count, moveCounts } = this.commands;
+    if (this.refused < 0) return null;
+    let next = this.refused + 1;
+    while (next < count && moveCounts[next] > 1) next++;
+    return [planS[this.refused], planS[Math.min(count, next + 1)]];
   }
 
   /** Slows down along the path, then clears Grbl's queue. `play` rejects with the error. */
@@ -172,11 +181,32 @@ export class LineStream {
     return this.commands.planS[this.answeredCount];
   }
 
+  /** An arc is accepted only when most of it is drawn. */
+  private get reachedS(): number {
+    const { planS, moveCounts } = this.commands;
+    const line = this.answeredCount;
+    return planS[line < this.next && moveCounts[line] > 1 ? line + 1 : line];
+  }
+
+  /** The first accepted line that may not be done if the Grbl keeps that many moves. */
+  private firstUndone(moveCount: number): number {
+    let line = this.answeredCount;
+    for (let left = moveCount; line > 0 && left > 0; left -= this.commands.moveCounts[line]) line--;
+    return line;
+  }
+
+  /** Enough is sent ahead. At least one line always waits behind the first. */
+  private get isFarAhead(): boolean {
+    const { planS } = this.commands;
+    return this.next > this.answeredCount + 1 && planS[this.next] - planS[this.answeredCount] >= AHEAD_S;
+  }
+
   private feed(): void {
     const { lines, count } = this.commands;
     while (!this.isOver) {
       const end = this.checkDue;
       if (end === 0 && this.next === count) return;
+      if (end === 0 && this.isFarAhead) return;
       const line = end > 0 ? CHECK : lines[this.next];
       if (!this.session.hasRoom(line)) return;
       if (end > 0) {

@@ -109,6 +109,13 @@ export const GRBL_FIELDS = {
     about: "home is where $H brings the carriage, and is found when the position is unknown; needs $22=1",
     default: false,
   },
+  arcs: {
+    kind: "switch",
+    isOptional: true,
+    label: "Draws arcs",
+    about: "curves are sent as arcs (G2, G3) where they are round; a DrawCore refuses them",
+    default: false,
+  },
   penUpLines: { ...OWN_LINES, label: "Lines that lift the pen" },
   penDownLines: { ...OWN_LINES, label: "Lines that lower the pen" },
 } as const;
@@ -119,6 +126,8 @@ export interface GrblController
   extends Controller, ValuesOf<typeof LIMIT_FIELDS>, Optional<ValuesOf<typeof Y_FIELDS & typeof PEN_FIELDS>> {
   readonly kind: "grbl";
   readonly homing?: boolean | null | undefined;
+  /** It takes G2 and G3. */
+  readonly arcs?: boolean | null | undefined;
   /** G-code that lifts the pen; lines are separated by line ends. */
   readonly penUpLines?: string | null | undefined;
   readonly penDownLines?: string | null | undefined;

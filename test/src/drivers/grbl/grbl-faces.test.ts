@@ -6,7 +6,7 @@ import { FACES, type FaceName } from "../../../../src/drivers/grbl/virtual/faces
 import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { CONTROLLERS } from "../../../../src/drivers/registry.js";
 import { GRBL, GRBL_SERVO, NO_EVENTS } from "../../../support/machines/machine.js";
-import { newPlotter, SETTINGS } from "../../../support/plots/grbl-plotter.js";
+import { machineWith, newPlotter, SETTINGS } from "../../../support/plots/grbl-plotter.js";
 import { DRAWING, expectDrawn } from "../../../support/plots/live-plot.js";
 import { LocalPlanner } from "../../../support/plots/local-planner.js";
 import { ManualClock } from "../../../support/clocks/manual-clock.js";
@@ -42,7 +42,8 @@ describe.each(FACES)("a %s", (face) => {
     ["a servo", GRBL_SERVO],
   ])(
     "plots with %s in the planned time, is paused and stopped, and overflows no buffer",
-    async (_, machine) => {
+    async (_, ordinary) => {
+      const machine = machineWith({ face }, ordinary);
       const settings = { ...SETTINGS, customMachine: machine };
       const { world, board, driver, begin, within } = await newPlotter({ face }, machine);
       const whole = await begin(new LocalPlanner(DRAWING), {}, settings);

@@ -13,7 +13,7 @@ import { compareDrawn } from "../../../support/drawings/drawn-truth.js";
 import { GRBL, GRBL_SERVO, NO_EVENTS } from "../../../support/machines/machine.js";
 import { ScriptedLine } from "../../../support/machines/scripted-line.js";
 import { FAULT_DRAWING } from "../../../support/plots/faulty-plots.js";
-import { newPlotter, SETTINGS } from "../../../support/plots/grbl-plotter.js";
+import { machineWith, newPlotter, SETTINGS } from "../../../support/plots/grbl-plotter.js";
 import { seeded } from "../../../support/plots/live-plot.js";
 import { LocalPlanner } from "../../../support/plots/local-planner.js";
 import { outcome } from "../../../support/plots/virtual-plotter.js";
@@ -185,7 +185,8 @@ const CODES: Readonly<Record<string, Row>> = Object.fromEntries([
 ]);
 
 /** Plots, with the fault after `atS`, and resumes as a person would. */
-async function plotWith(row: Row, face: FaceName, machine: MachineProfile, atS: number) {
+async function plotWith(row: Row, face: FaceName, ordinary: MachineProfile, atS: number) {
+  const machine = machineWith({ face }, ordinary);
   const plotter = await newPlotter({ face, ...row.options }, machine);
   const { world, board, driver, begin } = plotter;
   const settings = { ...SETTINGS, customMachine: machine };

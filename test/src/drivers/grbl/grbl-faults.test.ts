@@ -95,7 +95,7 @@ describe("after an error", () => {
     const { board, driver, begin, within, mustWork } = await newPlotter();
     const places: StrokePosition[] = [];
     const journal = { record: ({ place }: JournalEntry) => void places.push(place) };
-    const run = await begin(new RefusedPlanner(DRAWING, 60), { journal });
+    const run = await begin(new RefusedPlanner(DRAWING, 12), { journal });
     expect(await within(run.finished)).toMatch(/^board-error: The Grbl refused G5X1 with error:20/);
     expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
     const { xMm, yMm } = board.state();

@@ -4,7 +4,7 @@ import { findsHome } from "../../../../src/drivers/registry.js";
 import type { GrblController } from "../../../../src/drivers/grbl/model/grbl-controller.js";
 import type { MachineProfile } from "../../../../src/index.js";
 import { GRBL, GRBL_SERVO } from "../../../support/machines/machine.js";
-import { LIMIT_S, newPlotter, SETTINGS } from "../../../support/plots/grbl-plotter.js";
+import { LIMIT_S, machineWith, newPlotter, SETTINGS } from "../../../support/plots/grbl-plotter.js";
 import { DRAWING, expectDrawn } from "../../../support/plots/live-plot.js";
 import { LocalPlanner } from "../../../support/plots/local-planner.js";
 
@@ -26,7 +26,7 @@ async function plotter(
 it.each(["1.1", "0.9", "grblHAL", "FluidNC", "DrawCore"] as const)(
   "a %s finds home, whether or not it reports its state meanwhile",
   async (face) => {
-    const homes = withSwitches(GRBL);
+    const homes = withSwitches(machineWith({ face }) as typeof GRBL);
     const { board, begin, within } = await newPlotter({ face, settings: { 22: 1 } }, homes);
     const run = await begin(new LocalPlanner(DRAWING), {}, { ...SETTINGS, customMachine: homes });
     expect(await within(run.finished)).toEqual({ kind: "done" });

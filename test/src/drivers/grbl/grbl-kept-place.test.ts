@@ -5,12 +5,13 @@
 import { describe, expect, it } from "vitest";
 import type { JournalEntry, RunningPlot } from "../../../../host/plotter/plotter-port.js";
 import type { VirtualGrblOptions } from "../../../../src/drivers/grbl/virtual/virtual-settings.js";
-import { pointAt } from "../../../../src/internal.js";
+import { machineOf, pointAt } from "../../../../src/internal.js";
 import type { PlotSettings } from "../../../../src/schema/index.js";
 import type { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { compareDrawn } from "../../../support/drawings/drawn-truth.js";
+import { ROUND_DRAWING } from "../../../support/drawings/round-drawing.js";
 import { FAULT_DRAWING } from "../../../support/plots/faulty-plots.js";
-import { newPlotter, plotterOn, SETTINGS } from "../../../support/plots/grbl-plotter.js";
+import { newPlotter, plotterOn, SETTINGS, settingsWith } from "../../../support/plots/grbl-plotter.js";
 import { seeded } from "../../../support/plots/live-plot.js";
 import { layeredStrokes, LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js";
 import { cases } from "../../../support/runs/full-run.js";
@@ -35,7 +36,7 @@ async function interrupted(
   options: VirtualGrblOptions,
   atS: number,
   strokes = FAULT_DRAWING,
-  settings = SETTINGS,
+  settings = settingsWith(options),
 ) {
   const { world, board, ...first } = await newPlotter(options);
   const journal: JournalEntry[] = [];
@@ -58,7 +59,7 @@ async function interrupted(
     board.pushHome();
   }
   const { place: from, received } = how === "unplugged" ? journal.at(-1)! : atKill;
-  const next = how === "unplugged" ? first : await plotterOn(board, world);
+  const next = how === "unplugged" ? first : await plotterOn(board, world, machineOf(settings));
   const found = next.driver.state;
   const start = { from, received, journal: { record } };
   const resumed = await next.begin(new LocalPlanner(strokes), start, settings);
@@ -75,7 +76,12 @@ const resumeAtPenStops = (run: RunningPlot): void =>
     if (wait) void run.resume();
   });
 
-describe.each(FACES)("a plot on $face", (options) => {
+const DRAWINGS = { "lines and curves": FAULT_DRAWING, "round lines": ROUND_DRAWING };
+const PLOTS = FACES.flatMap((options) =>
+  Object.entries(DRAWINGS).map(([name, drawing]) => [name, options.face, options, drawing] as const),
+);
+
+describe.each(PLOTS)("a plot of %s on %s", (_, __, options, drawing) => {
   it.each(["killed", "unplugged"] as const)(
     "goes on where it stopped if it is %s",
     { timeout: 300_000 },
@@ -84,7 +90,7 @@ describe.each(FACES)("a plot on $face", (options) => {
       const wrong: unknown[] = [];
       for (let i = 0; i < cases(how === "killed" ? 20 : 10, 3); i++) {
         const atS = 0.6 + (PLOT_S - 0.6) * random();
-        const { gapMm, overlapMm, awayMm, found } = await interrupted(how, options, atS);
+        const { gapMm, overlapMm, awayMm, found } = await interrupted(how, options, atS, drawing);
         expect(found.xMm).not.toBeNull();
         if (gapMm > MOST_MM || overlapMm > MOST_MM || awayMm > MOST_MM) {
           wrong.push({ atS, gapMm, overlapMm, awayMm });
@@ -100,7 +106,7 @@ describe.each(FACES)("a plot on $face", (options) => {
     async (how) => {
       const random = seeded(3);
       for (let i = 0; i < cases(20, 2); i++) {
-        const { gapMm, found } = await interrupted(how, options, 0.6 + (PLOT_S - 1) * random());
+        const { gapMm, found } = await interrupted(how, options, 0.6 + (PLOT_S - 1) * random(), drawing);
         expect(gapMm).toBeLessThan(MOST_MM);
         if (how !== "killed while it pauses") expect(found.xMm).toBeNull();
       }
@@ -110,7 +116,7 @@ describe.each(FACES)("a plot on $face", (options) => {
   it("goes on where it stopped after each of many holds", { timeout: 300_000 }, async () => {
     const random = seeded(11);
     const { world, board, begin } = await newPlotter(options);
-    const run = await begin(new LocalPlanner(FAULT_DRAWING));
+    const run = await begin(new LocalPlanner(drawing));
     let holdCount = 0;
     let isOver = false;
     void run.finished.then(() => (isOver = true));
@@ -122,7 +128,7 @@ describe.each(FACES)("a plot on $face", (options) => {
       holdCount++;
     }
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
-    const { gapMm, overlapMm, awayMm } = compareDrawn(FAULT_DRAWING, board.drawn());
+    const { gapMm, overlapMm, awayMm } = compareDrawn(drawing, board.drawn());
     expect(gapMm).toBeLessThan(MOST_MM);
     expect(overlapMm).toBeLessThan(MOST_MM);
     expect(awayMm).toBeLessThan(MOST_MM);
