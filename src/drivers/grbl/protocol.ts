@@ -196,12 +196,17 @@ const ERRORS: Readonly<Record<number, string>> = {
   38: "the number of a tool is too high",
 };
 
+/** Unknown command, and what can be wrong with an arc. */
+const ARC_ERRORS = [20, 33, 34, 35];
+
 /** `reply`: "error:20", for example. */
 export function refusal(line: string, reply: string): PlotwrightError {
-  const why = ERRORS[Number(reply.slice(6))];
-  const advice = /^G[23]/.test(line)
-    ? "switch off in the machine's profile that it draws arcs"
-    : "check the machine's profile against its settings ($$)";
+  const code = Number(reply.slice(6));
+  const why = ERRORS[code];
+  const advice =
+    /^G[23]/.test(line) && ARC_ERRORS.includes(code)
+      ? "switch off in the machine's profile that it draws arcs"
+      : "check the machine's profile against its settings ($$)";
   return new PlotwrightError(
     "board-error",
     `The Grbl refused ${line} with ${reply}${why ? ` (${why})` : ""}. If that happens again, ${advice}.`,

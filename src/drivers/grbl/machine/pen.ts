@@ -47,7 +47,9 @@ export class GrblPen {
     this.isMoving = true;
     this.changed();
     try {
-      for (const line of lines) await this.session.sendSurely(line);
+      // The profile's own lines may move by a distance.
+      const lostTries = lift.kind === "lines" ? 1 : undefined;
+      for (const line of lines) await this.session.sendSurely(line, lostTries);
     } catch (error) {
       this.setState(null);
       throw error;

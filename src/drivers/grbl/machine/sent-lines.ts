@@ -6,20 +6,21 @@ export type Settle = (error: PlotwrightError | null) => void;
 interface SentLine {
   readonly line: string;
   readonly settle: Settle;
+  /** Otherwise it is sent again if it is not answered. */
+  readonly isLast: boolean;
   /** A check whose report has come. */
   isReported: boolean;
 }
 
-/**
- * Characters of the buffer that stay free: some boards have one less than they report, and a doubled answer lets one more line
- * be sent.
- */
-const SPARE_BYTES = 32;
+/** Some boards have one character less than they report. */
+const LESS_BYTES = 1;
 
 export class SentLines {
   private lines: SentLine[] = [];
   /** Line ends included. */
   private byteCount = 0;
+  /** Of the line that was answered last. */
+  private lastBytes = 0;
 
   get count(): number {
     return this.lines.length;
@@ -29,19 +30,23 @@ export class SentLines {
     return this.lines.at(0);
   }
 
+  /** After a doubled answer, the line that was answered last is still in the buffer. So there is always room for it. */
   hasRoom(line: string, rxBytes: number): boolean {
-    return this.count === 0 || this.byteCount + line.length + 1 <= rxBytes - SPARE_BYTES;
+    return this.count === 0 || this.byteCount + line.length + 1 + this.lastBytes <= rxBytes - LESS_BYTES;
   }
 
-  add(line: string, settle: Settle): void {
-    this.lines.push({ line, settle, isReported: false });
+  add(line: string, settle: Settle, isLast: boolean): void {
+    this.lines.push({ line, settle, isLast, isReported: false });
     this.byteCount += line.length + 1;
   }
 
   /** Takes the first one out. */
   next(): SentLine | undefined {
     const first = this.lines.shift();
-    if (first) this.byteCount -= first.line.length + 1;
+    if (first) {
+      this.lastBytes = first.line.length + 1;
+      this.byteCount -= this.lastBytes;
+    }
     return first;
   }
 

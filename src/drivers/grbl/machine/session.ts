@@ -62,6 +62,7 @@ const PATIENCE_S = 3;
 /** The same for a machine that says it runs, but whose position does not change: it may be very slow. */
 const SLOW_S = 30;
 const REFUSED_TRIES = 10;
+const LOST_TRIES = 3;
 const OFFSET_TRIES = 35;
 const POLL_S = 0.2;
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
@@ -206,10 +207,10 @@ export class GrblSession implements LineProtocol {
     return this.buffers.queueMoves;
   }
 
-  /** Sends one line; `settle` is called once, with its reply or an error. */
-  write(line: string, settle: Settle): void {
+  /** Sends one line; `settle` is called once, with its reply or an error. `isLast`: the connection ends without a reply. */
+  write(line: string, settle: Settle, isLast = true): void {
     if (this.failure) return settle(this.failure);
-    this.sent.add(line, settle);
+    this.sent.add(line, settle, isLast);
     this.lines.writeLines([line]);
     // Not measured from an old reply.
     if (this.sent.count === 1) {
@@ -220,18 +221,24 @@ export class GrblSession implements LineProtocol {
   }
 
   /** Resolves when the line is accepted; for `G4` when everything before it is done. */
-  send(line: string): Promise<void> {
-    return new Promise((resolve, reject) => this.write(line, (error) => (error ? reject(error) : resolve())));
+  send(line: string, isLast = true): Promise<void> {
+    return new Promise((resolve, reject) =>
+      this.write(line, (error) => (error ? reject(error) : resolve()), isLast),
+    );
   }
 
-  /** The same for lines that may be sent again if they are refused, as when the connection is disturbed. */
-  async sendSurely(line: string): Promise<void> {
+  /**
+   * The same for lines that may be sent again if they are refused, as when the connection is disturbed. `lostTries`: how often
+   * if they are not answered; then they may have been executed.
+   */
+  async sendSurely(line: string, lostTries = LOST_TRIES): Promise<void> {
     for (let i = 1; ; i++) {
       try {
-        return await this.send(line);
+        return await this.send(line, i >= lostTries);
       } catch (error) {
-        const isRefused = error instanceof PlotwrightError && error.code === "board-error";
-        if (this.failure || !isRefused || i === REFUSED_TRIES) throw error;
+        const { code } = error instanceof PlotwrightError ? error : { code: null };
+        const mayRepeat = code === "board-error" || (code === "board-timeout" && i < lostTries);
+        if (this.failure || !mayRepeat || i === REFUSED_TRIES) throw error;
       }
       // After an error, a grblHAL refuses all lines up to an empty one.
       await this.send("").catch(() => undefined);
@@ -405,7 +412,8 @@ export class GrblSession implements LineProtocol {
     const state = this.lastStatus?.state ?? "silent";
     const error = isHeld(state) ? heldError(state) : unanswered(first.line, state);
     if (this.playing) this.playing.outOfStep(error);
-    else this.lines.fail(error);
+    else if (first.isLast || this.sent.count > 1 || state !== "Idle") this.lines.fail(error);
+    else this.sent.next()?.settle(error);
   }
 
   private broken(error: PlotwrightError): void {

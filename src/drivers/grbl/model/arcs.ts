@@ -122,13 +122,12 @@ function follows(path: ArcPath, { first, last, i, j, clockwise }: FoundArc, roun
   const sense = clockwise ? -1 : 1;
   const maxMm = Math.min(MAX_S * Math.sqrt(cap2[first]), MAX_SWEEP * radius);
   // From the centre, and along the previous segment.
-  let [rx, ry] = [-i, -j];
+  let [rx, ry] = [x[first] - centreX, y[first] - centreY];
   let [beforeX, beforeY, turnBefore] = [0, 0, 0];
   let sweep = 0;
   for (let k = first + 1; k <= last; k++) {
     if (cap2[k - 1] !== cap2[first]) return false;
-    const isEnd = k === last;
-    const [qx, qy] = [(isEnd ? stepX[k] : x[k]) - centreX, (isEnd ? stepY[k] : y[k]) - centreY];
+    const [qx, qy] = [x[k] - centreX, y[k] - centreY];
     if (Math.abs(Math.hypot(qx, qy) - radius) > POINT_MM + roundingMm) return false;
     const turn = sense * Math.atan2(rx * qy - ry * qx, rx * qx + ry * qy);
     if (turn <= 0) return false;

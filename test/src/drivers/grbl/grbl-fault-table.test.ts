@@ -159,8 +159,10 @@ const LINES: Readonly<Record<string, Row>> = {
 const REFUSALS = [...Array.from({ length: 38 }, (_, i) => i + 1), 79];
 /** Those without a meaning in the table of Grbl 1.1. */
 const UNKNOWN = [18, 19, 79];
-const WITHOUT_REASON = /\. If that happens again, check the machine's profile/;
-const WITH_REASON = / \([a-zG].{8,}\)\. If that happens again, check the machine's profile/;
+const ADVICE =
+  "\\. If that happens again, (check the machine's profile|switch off in the machine's profile that it draws arcs)";
+const WITHOUT_REASON = new RegExp(ADVICE);
+const WITH_REASON = new RegExp(` \\([a-zG].{8,}\\)${ADVICE}`);
 
 const CODES: Readonly<Record<string, Row>> = Object.fromEntries([
   ...REFUSALS.map((code) => {
