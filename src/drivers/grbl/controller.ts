@@ -1,8 +1,8 @@
-/** Grbl for `registry.ts`. Experimental: it shows that the interface also fits a controller that plans by itself. */
+/** Grbl and its children for `registry.ts`. */
 import type { ControllerDescription } from "../driver.js";
+import { isOwnVersion, takesArcs } from "./model/firmware.js";
 import { findsHome, GRBL_FIELDS } from "./model/grbl-controller.js";
 import { LIFT_CHOICE, liftFault } from "./model/pen-lift.js";
-import { isOwnVersion, takesArcs } from "./protocol.js";
 import { UNUSED_SETTINGS } from "./unused-settings.js";
 
 export const description: ControllerDescription = {

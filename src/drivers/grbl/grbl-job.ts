@@ -12,11 +12,11 @@ import { NO_PENS, penOf, penStopsOf, type PenSetup } from "../../prepare/layers/
 import type { PenSettings } from "../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from "../machine-job.js";
 import { ARC_TOLERANCE_MM } from "./model/arc-cut.js";
+import { takesArcs } from "./model/firmware.js";
 import { axisLimits, dwellS, grblOf } from "./model/grbl-controller.js";
 import { GrblRuns, type SentMove } from "./model/grbl-runs.js";
 import { number, penLiftOf, waitLine, type PenLift } from "./model/pen-lift.js";
 import { QUEUE_MOVES, type Axes, type GrblAxisLimits } from "./model/planner.js";
-import { takesArcs } from "./protocol.js";
 
 /** Lines of G-code. The reply to the last one comes when everything is done. */
 export interface GrblCommands extends MachineCommands {

@@ -30,12 +30,6 @@ const GREETING = /^(?:Grbl(?:HAL)? [\w.]|DrawCore V)/i;
 
 export const isGreeting = (line: string): boolean => GREETING.test(line);
 
-/** Whether a version names one of them. */
-export const isOwnVersion = (version: string): boolean => /^(Grbl|grblHAL|FluidNC|DrawCore) /.test(version);
-
-/** Whether a board of that version takes arcs, if its profile says so; null: unknown. A DrawCore does not. */
-export const takesArcs = (version: string | null): boolean => !version?.startsWith("DrawCore");
-
 /**
  * The version in a greeting or in the reply to `$I`: "Grbl 1.1h", "grblHAL 1.1f", "FluidNC 3.7.16", "DrawCore 2.09"; null if
  * the line has none.
