@@ -1,7 +1,7 @@
 /**
- * The command line on virtual Grbls in other processes, over real pseudo-terminals: what is drawn, also when the plotting
- * process is killed or the cable pulled. How long it takes is measured on a virtual clock (grbl-samples.test.ts), because
- * this computer may be busy. In the full run all samples on all Grbls.
+ * The command line and a server on virtual Grbls in other processes, over real pseudo-terminals: what is drawn, also when
+ * the plotting process is killed or the cable pulled. How long it takes is measured on a virtual clock
+ * (grbl-samples.test.ts), because this computer may be busy. In the full run all samples on all Grbls.
  */
 import { fork } from "node:child_process";
 import { once } from "node:events";
@@ -23,6 +23,8 @@ import { NodePlotter } from "../support/plots/node-plotter.js";
 import { cli } from "../support/processes/command-line.js";
 import { folderOfTest } from "../support/processes/folders.js";
 import { PtyGrbl } from "../support/processes/pty-grbl.js";
+import { startServerProcess } from "../support/processes/server-process.js";
+import { send } from "../support/servers/shared-servers.js";
 import { countFor, IS_FULL } from "../support/runs/full-run.js";
 
 const SPEED = 150;
@@ -68,23 +70,42 @@ function gridOf(lines: readonly (readonly number[])[]): SegmentGrid {
 describe.each(GRBLS)("plot on a $face behind a pseudo-terminal", (options) => {
   it.each(SAMPLES)("draws %s within 0.05 mm", { timeout: 300_000 }, async (name) => {
     const board = await grbl(options, SPEED);
-    const file = join(ROOT, "samples", `${name}.svg`);
-    const strokes = join(dir, "strokes.json");
-    const own = ["--machine-file", profile];
-    expect(await cli("plan", file, ...own, "--strokes", strokes)).toMatchObject({ code: 0 });
-    const device = ["--device", board.path, "--virtual-speed", String(SPEED), "--data", dir];
-    const { code, err } = await cli("plot", file, ...own, ...device);
-    expect([code, err]).toEqual([0, expect.stringContaining(`Done: ${name}.svg`)]);
+    const device = ["--device", board.path, "--virtual-speed", String(SPEED)];
+    await plotSample(name, device);
+    // Its motors are off in the end.
+    expect((await board.report()).state.state).toBe("Sleep");
+    await expectDrawn(board);
+  });
 
-    const { state, drawn } = await board.report();
-    // Its motors are off in the end, and the carriage is at home.
-    expect(state).toMatchObject({ state: "Sleep", penUp: true, xMm: 0, yMm: 0, lostCount: 0, earlyCount: 0 });
-    const asked = polylinesOf(readFileSync(strokes, "utf8"));
-    const lines = drawn.flatMap(({ penDown, xy }) => (penDown && xy.length > 2 ? [xy] : []));
-    expect(farthest(points(lines), gridOf(asked))).toBeLessThan(MOST_MM);
-    expect(farthest(points(asked), gridOf(lines))).toBeLessThan(MOST_MM);
+  it.each(SAMPLES)("draws %s within 0.05 mm through a server", { timeout: 300_000 }, async (name) => {
+    const board = await grbl(options, SPEED);
+    const args = ["--device", board.path];
+    const server = await startServerProcess({ dataDir: dir, virtualSpeed: SPEED, args });
+    open.push({ close: () => server.stop() });
+    await send(server.url, "PUT", `/machines/${GRBL.id}`, GRBL);
+    await send(server.url, "PATCH", "/plotters/main", { machine: GRBL.id });
+    await plotSample(name, []);
+    await expectDrawn(board);
   });
 });
+
+async function plotSample(name: string, device: readonly string[]): Promise<void> {
+  const file = join(ROOT, "samples", `${name}.svg`);
+  const own = ["--machine-file", profile];
+  expect(await cli("plan", file, ...own, "--strokes", join(dir, "strokes.json"))).toMatchObject({ code: 0 });
+  const { code, err } = await cli("plot", file, ...own, ...device, "--data", dir);
+  expect([code, err]).toEqual([0, expect.stringContaining(`Done: ${name}.svg`)]);
+}
+
+/** Compares what the Grbl has drawn with the planned strokes. */
+async function expectDrawn(board: PtyGrbl): Promise<void> {
+  const { state, drawn } = await board.report();
+  expect(state).toMatchObject({ penUp: true, xMm: 0, yMm: 0, lostCount: 0, earlyCount: 0 });
+  const asked = polylinesOf(readFileSync(join(dir, "strokes.json"), "utf8"));
+  const lines = drawn.flatMap(({ penDown, xy }) => (penDown && xy.length > 2 ? [xy] : []));
+  expect(farthest(points(lines), gridOf(asked))).toBeLessThan(MOST_MM);
+  expect(farthest(points(asked), gridOf(lines))).toBeLessThan(MOST_MM);
+}
 
 const polylinesOf = (text: string): number[][] =>
   (JSON.parse(text) as ReturnType<typeof toJson>).layers.flatMap(({ strokesMm }) =>
