@@ -1,16 +1,16 @@
 /**
  * Makes a job for a Grbl controller from strokes: a model of the motion that Grbl's planner produces, and the lines to send.
  */
-import { settingsIdOf, strokeCount, type StrokeLayer, type StrokeSet } from "../../drawing/stroke-set.js";
+import { strokeCount, type StrokeSet } from "../../drawing/stroke-set.js";
 import type { MachineProfile } from "../../machines/profile.js";
-import { penOfLayer } from "../../plan/pen/pen-times.js";
 import { penMovesOf } from "../../plan/pen/pen-moves.js";
 import { plan } from "../../plan/plan.js";
 import { runEndS, type StrokePosition, type Trajectory } from "../../plan/trajectory.js";
 import { strokeLengthMm } from "../../position/on-drawing.js";
-import { NO_PENS, penOf, penStopsOf, type PenSetup } from "../../prepare/layers/pens.js";
+import { NO_PENS, type PenSetup } from "../../prepare/layers/pens.js";
 import type { PenSettings } from "../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from "../machine-job.js";
+import { fileLines } from "./grbl-file.js";
 import { ARC_TOLERANCE_MM } from "./model/arc-cut.js";
 import { takesArcs } from "./model/firmware.js";
 import { axisLimits, dwellS, grblOf } from "./model/grbl-controller.js";
@@ -23,8 +23,8 @@ export interface GrblCommands extends MachineCommands {
   readonly lines: readonly string[];
   /** How many moves in the Grbl's queue each line becomes. */
   readonly moveCounts: readonly number[];
-  /** The layer that begins at a line, by the line's index. */
-  readonly layerAt: ReadonlyMap<number, StrokeLayer>;
+  /** The first stroke of the layer that begins at a line, by the line's index. */
+  readonly strokeAt: ReadonlyMap<number, number>;
 }
 
 /** Narrows a job's commands to the type of this driver. Throws TypeError for those of another driver. */
@@ -46,12 +46,8 @@ export interface GrblState {
   readonly arcToleranceMm: number;
 }
 
-/** mm, absolute coordinates, mm/min. Sent again after a reset, which may change these modes. */
-export const MODES = "G21G90G94";
 /** The reply comes when everything before it is done. */
 export const SYNC = "G4P0";
-/** Waits until the user resumes. */
-const WAIT_FOR_USER = "M0";
 
 export function planGrblJob(
   strokes: StrokeSet,
@@ -91,8 +87,14 @@ export function planGrblJob(
     }));
   const lines = (): string[] => {
     const travelMmPerS = Math.min(motion.travel.speedMmPerS, limits.speed[0], limits.speed[1]);
-    const linesBefore = layerComments(strokes, pen, { ...NO_PENS, ...penSetup }, travelMmPerS);
-    return fileLines(machine, trajectory, commands(), linesBefore);
+    return fileLines(commands(), {
+      strokes,
+      machine,
+      pen,
+      penSetup: { ...NO_PENS, ...penSetup },
+      travelMmPerS,
+      totalS: trajectory.totalS,
+    });
   };
   return { trajectory, commands, lines };
 }
@@ -104,56 +106,6 @@ const undrawn = (strokes: StrokeSet, from: StrokePosition, stepMm: number): Stro
   strokeLengthMm(strokes, from.stroke) - from.alongMm < stepMm
     ? { stroke: from.stroke + 1, alongMm: 0 }
     : from;
-
-/** For any sender: with comments, which Grbl skips, at the beginning and at each layer, and waits for other pens. */
-function fileLines(
-  machine: MachineProfile,
-  { totalS }: Trajectory,
-  { lines, layerAt }: GrblCommands,
-  linesBefore: (layer: StrokeLayer, isAt: string) => readonly string[],
-): string[] {
-  const about = [comment(`For ${machine.name}: about ${Math.ceil(totalS / 60)} min. Begins at home.`), MODES];
-  let isAt = "G1X0Y0";
-  return about.concat(
-    lines.flatMap((line, i) => {
-      const layer = layerAt.get(i);
-      // A layer that begins where the one before it ends has no travel.
-      const before = layer ? linesBefore(layer, isMove(line) ? "" : isAt) : [];
-      if (isMove(line)) isAt = line.replace(/F.*/, "");
-      return [...before, line];
-    }),
-  );
-}
-
-const isMove = (line: string): boolean => line.startsWith("G1X");
-
-/** What is before a layer: where its pen is put in, the way home and a wait for the user; then what is drawn with which pen. */
-function layerComments(strokes: StrokeSet, pen: PenSettings, setup: PenSetup, travelMmPerS: number) {
-  const stops = penStopsOf(strokes, setup);
-  const feed = `F${number(60 * travelMmPerS)}`;
-  /** `back`: the move to where the layer begins; "": its first line is that. */
-  return (layer: StrokeLayer, back: string): readonly string[] => {
-    const { upPct, downPct } = penOfLayer(pen, settingsIdOf(layer));
-    const itsPen = penOf(setup, layer);
-    const color = itsPen?.color ?? layer.color;
-    const colored = (name: string): string => (color === null ? name : `${name}, ${color}`);
-    const stop = stops.find(({ layerId }) => layerId === layer.id);
-    const change = stop && [
-      comment(colored(`Put in ${itsPen ? `the pen ${itsPen.name}` : "the pen for this layer"}`)),
-      `G1X0Y0${feed}`,
-      WAIT_FOR_USER,
-      ...(back === "" ? [] : [`${back}${feed}`]),
-    ];
-    const name = `Layer ${layer.name}${itsPen ? `, pen ${itsPen.name}` : ""}`;
-    return [...(change ?? []), comment(`${colored(name)}: pen down at ${downPct} %, up at ${upPct} %`)];
-  };
-}
-
-/**
- * Some characters act at once even in a comment: ? ! ~ and those beyond ASCII. A line has at most 79 characters on some
- * Grbls.
- */
-const comment = (text: string): string => `; ${text.replace(/[?!~();]|[^\x20-\x7e]/g, "_").slice(0, 77)}`;
 
 /** How long the carriage stands for a pen move; from a height to the same one it only waits. */
 const penS = (lift: PenLift, fromPct: number, toPct: number, waitS: number): number =>
@@ -192,7 +144,7 @@ function writeCommands(
     moveCounts.push(moveCount);
   };
   const penMoves = penMovesOf(trajectory);
-  const layerAt = new Map<number, StrokeLayer>();
+  const strokeAt = new Map<number, number>();
   let layer = -1;
   let { isUp } = start;
   let pct = isUp ? start.heightPct : start.downPct;
@@ -203,7 +155,7 @@ function writeCommands(
     const stroke = trajectory.runs.stroke[isTravel ? run + 1 : run] ?? -1;
     if (stroke < 0 || strokes.layer[stroke] === layer) return;
     layer = strokes.layer[stroke];
-    layerAt.set(lines.length, strokes.layers[layer]);
+    strokeAt.set(lines.length, stroke);
   };
   for (let run = 0; run <= runs.length; run++) {
     for (; next < penMoves.length && penMoves[next].beforeRun === run; next++) {
@@ -235,7 +187,7 @@ function writeCommands(
     warnings: [],
     lines,
     moveCounts,
-    layerAt,
+    strokeAt,
   };
 }
 

@@ -22,13 +22,13 @@ it("plan writes G-code for a Grbl, with the pen up at both ends", async () => {
   expect(code).toBe(0);
   const lines = out.trim().split("\n");
   expect(lines.slice(0, 4)).toEqual([
-    expect.stringMatching(/^; For My Grbl: about \d+ min\. /),
+    expect.stringMatching(/^\(For My Grbl: about \d+ min\. /),
     "G21G90G94",
     "G1Z5F3000",
     "G4P0.1",
   ]);
   expect(lines.slice(-2)).toEqual([expect.stringMatching(/^G1X0Y0/), "G4P0"]);
-  const moves = lines.filter((line) => !line.startsWith(";"));
+  const moves = lines.filter((line) => !line.startsWith("("));
   expect(moves.filter((line) => !/^G1[XZ][-\d.]+(Y[-\d.]+)?(F[\d.]+)?$|^G4P[\d.]+$/.test(line))).toEqual([
     "G21G90G94",
   ]);
@@ -48,12 +48,12 @@ it("plan names the layers in comments that no Grbl takes for a command", async (
   const { code, out } = await cli("plan", drawing, "--machine-file", profile, "--commands", "-");
   expect(code).toBe(0);
   const lines = out.trim().split("\n");
-  const comments = lines.filter((line) => line.startsWith(";")).slice(1);
+  const comments = lines.filter((line) => line.startsWith("(")).slice(1);
   expect(comments).toEqual([
-    "; Layer 1 _ste_ _oben__, #aa0000: pen down at 30 %, up at 60 %",
-    expect.stringMatching(/^; Layer 2 (long ?)+$/),
+    "(Layer 1 _ste_ _oben__, #aa0000: pen down at 30 %, up at 60 %)",
+    expect.stringMatching(/^\(Layer 2 (long ?)+, #aa0000: pen down at 30 %, up at 60 %\)$/),
   ]);
-  expect(comments.filter((line) => /[?!~]|[^ -\u007e]/.test(line) || line.length > 79)).toEqual([]);
+  expect(comments.filter((line) => /[?!~]|[^ -\u007e]/.test(line) || line.length > 69)).toEqual([]);
   // Each is before the travel to its layer.
   const of = (text: RegExp): number => lines.findIndex((line) => text.test(line));
   expect(of(/Layer 2/)).toBeGreaterThan(lines.lastIndexOf("G1Z0F3000", of(/Layer 2/)));
