@@ -83,7 +83,7 @@ describe("the ports of this computer", () => {
   it("are asked, and tell what is there", async () => {
     const asked = await askPorts({ devices, clock: nodeClock });
     const answers = new Map(asked.map(({ path, answer, fault }) => [path, answer ?? fault]));
-    expect(answers.get(drawCore.path)).toBe("Grbl 1.1h");
+    expect(answers.get(drawCore.path)).toBe("DrawCore 2.09");
     expect(answers.get(fluidNc.path)).toMatch(/^FluidNC \d+\.\d+/);
     expect(answers.get(ebb.path)).toBe("EiBotBoard 2.8.1");
     expect(answers.get(silent.path)).toBeNull();
@@ -115,13 +115,13 @@ describe("plotwright devices", () => {
     expect(asked.code).toBe(0);
     const lines = asked.out.split("\n");
     const lineOf = (path: string) => lines.find((line) => line.startsWith(path));
-    expect(lineOf(drawCore.path)).toBe(`${drawCore.path}\tUSB device\tGrbl 1.1h`);
+    expect(lineOf(drawCore.path)).toBe(`${drawCore.path}\tUSB device\tDrawCore 2.09`);
     expect(lineOf(silent.path)).toBe(`${silent.path}\tUSB device\tno answer`);
     expect(lineOf("virtual")).toBe("virtual\tthe built-in virtual board");
     const heardBefore = silent.heard.length;
     const listed = await cli("devices");
     expect(listed.out).toContain(drawCore.path);
-    expect(listed.out).not.toContain("Grbl 1.1h");
+    expect(listed.out).not.toContain("DrawCore 2.09");
     expect(silent.heard.length).toBe(heardBefore);
   });
 });

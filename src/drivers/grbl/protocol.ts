@@ -12,6 +12,9 @@ export const RX_BYTES = 128;
 /** Asks for version and buffers. Changes nothing; refused in motion. */
 export const INFO = "$I";
 
+/** Asks a DrawCore for its version, which it tells without an `ok`; others refuse it. */
+export const OWN_VERSION = "v";
+
 /** Brings the carriage to its switches. The Grbl says nothing until it is there. */
 export const HOME = "$H";
 
@@ -55,6 +58,9 @@ export function versionAfter(line: string, before: string | null): string | null
   const isLess = before !== null && version?.startsWith("Grbl 1.");
   return version === null || isLess ? before : version;
 }
+
+/** A DrawCore may say in its reply to `$I` only from which Grbl it comes. */
+export const mayBeDrawCore = (version: string | null): boolean => version?.startsWith("Grbl 1.") === true;
 
 /** Drops the date of "1.1h.20190830". */
 const withoutDate = (version: string): string => version.replace(/\.\d{6,}$/, "");
@@ -112,36 +118,37 @@ export const needsReset = (state: string): boolean => isHeld(state) || isCheckin
 
 /** A status report that arrived whole. */
 const REPORT = /^<([^|<>]+)\|[^<>]*>$/;
-/** The same of version 0.9. */
-const OLD_REPORT = /^<([A-Z][a-z]+),([^|<>]*)>$/;
+/** The same of version 0.9, whose mask ($10) may leave out any field. */
+const OLD_REPORT = /^<([A-Z][a-z]+)((?:,[A-Za-z]+:[-\d.]+(?:,[-\d.]+)*)*)>$/;
 
 export const isReport = (line: string): boolean => REPORT.test(line) || OLD_REPORT.test(line);
 
 /** Work offset of a report, in the board's units; not every report has one. */
 export function offsetOf(line: string): Axes | null {
-  const old = OLD_REPORT.test(line) ? statusOf(line, [0, 0, 0], 1) : null;
-  if (old) return difference(old.machineAt, old.at);
-  return REPORT.test(line) ? axesOf(line, "WCO", 1) : null;
+  const fields = fieldsOf(line);
+  if (!fields?.isOld) return fields && axesOf(fields.text, "WCO", 1);
+  const work = axesOf(fields.text, "WPos", 1);
+  const machine = axesOf(fields.text, "MPos", 1);
+  return work && machine && difference(machine, work);
 }
 
 /** A status report; null for another line, or a damaged one. `offset`: the last reported work offset, mm. */
 export function statusOf(line: string, offset: Axes, mmPerUnit: number): Status | null {
-  const old = OLD_REPORT.exec(line);
-  if (old) return oldStatusOf(old[1], old[2], mmPerUnit);
-  const state = REPORT.exec(line)?.[1];
-  if (state === undefined) return null;
-  const work = axesOf(line, "WPos", mmPerUnit);
-  if (work) return { state, at: work, machineAt: sum(work, offset) };
-  const machineAt = axesOf(line, "MPos", mmPerUnit);
-  return machineAt && { state, at: difference(machineAt, offset), machineAt };
+  const fields = fieldsOf(line);
+  if (!fields) return null;
+  const { state, text } = fields;
+  const work = axesOf(text, "WPos", mmPerUnit);
+  const machine = axesOf(text, "MPos", mmPerUnit);
+  if (work) return { state, at: work, machineAt: machine ?? sum(work, offset) };
+  return machine && { state, at: difference(machine, offset), machineAt: machine };
 }
 
-/** "MPos:0.000,0.000,0.000,WPos:0.000,0.000,0.000": version 0.9 reports both, and so its work offset. */
-function oldStatusOf(state: string, fields: string, mmPerUnit: number): Status | null {
-  const report = `|${fields.replace(",WPos", "|WPos")},`;
-  const machineAt = axesOf(report, "MPos", mmPerUnit);
-  const at = axesOf(report, "WPos", mmPerUnit);
-  return machineAt && at && { state, at, machineAt };
+/** A report's state and its fields, each as "|Name:values|". */
+function fieldsOf(line: string): { state: string; text: string; isOld: boolean } | null {
+  const state = REPORT.exec(line)?.[1];
+  if (state !== undefined) return { state, text: line, isOld: false };
+  const old = OLD_REPORT.exec(line);
+  return old && { state: old[1], text: `${old[2].replace(/,(?=[A-Za-z])/g, "|")}|`, isOld: true };
 }
 
 function axesOf(report: string, name: string, mmPerUnit: number): Axes | null {
@@ -344,6 +351,14 @@ export const withUnsureHeight = (error: PlotwrightError): PlotwrightError =>
 
 /** Added to an error after which the pen could not be lifted. */
 export const NOT_LIFTED = "The pen could not be lifted: lift it by hand.";
+
+/** A Grbl 0.9 whose mask leaves out where it is. `by`: what can change that. */
+export const unplaced = (by: string): PlotwrightError =>
+  new PlotwrightError(
+    "bad-setting",
+    "The Grbl 0.9 does not report its positions in both machine and work coordinates ($10), so nothing could be drawn in its " +
+      `place. Nothing has moved. Send $10=3 ${by}.`,
+  );
 
 export const noSwitches = (): PlotwrightError =>
   new PlotwrightError(

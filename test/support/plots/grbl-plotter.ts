@@ -95,6 +95,9 @@ export async function newPlotter(options: VirtualGrblOptions = {}, machine = mac
   return { world, board, ...(await plotterOn(board, world, machine)) };
 }
 
+/** Without the questions before the Grbl's settings are read: one of them is refused by all but a DrawCore. */
+export const logOfPlot = (driver: PlotterConnection): string => driver.log().split("> $$").at(-1)!;
+
 /** A process that plots on a Grbl, which may have been left by another. */
 export async function plotterOn(board: VirtualGrbl, world: ManualClock, machine: MachineProfile = GRBL) {
   const lines: WeakLine[] = [];

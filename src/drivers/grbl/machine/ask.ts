@@ -1,7 +1,7 @@
 /** Asks a device whether it is a Grbl. It may be any other device with such a USB chip, so nothing but questions is sent. */
 import { LineSession } from "../../line-session.js";
 import { delay, type Clock, type Transport } from "../../transport.js";
-import { INFO, isGreeting, isReport, NOW, versionAfter } from "../protocol.js";
+import { INFO, isGreeting, isReport, mayBeDrawCore, NOW, OWN_VERSION, versionAfter } from "../protocol.js";
 
 const POLL_S = 0.2;
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
@@ -11,13 +11,15 @@ const INFO_TRIES = 5;
 /** See `Driver.ask`. */
 export async function askGrbl(transport: Transport, clock: Clock): Promise<string | null> {
   let isGrbl = false;
+  let isGreeted = false;
   let version: string | null = null;
   const lines = new LineSession(
     transport,
     {
       lineEnd: "\n",
       take: (line) => {
-        isGrbl ||= isReport(line) || isGreeting(line);
+        isGreeted ||= isGreeting(line);
+        isGrbl ||= isGreeted || isReport(line);
         version = versionAfter(line, version);
       },
       silent: () => undefined,
@@ -44,6 +46,10 @@ export async function askGrbl(transport: Transport, clock: Clock): Promise<strin
       INFO_TRIES,
       () => lines.writeLines([INFO]),
     );
+    if (!isGreeted && mayBeDrawCore(version)) {
+      lines.writeLines([OWN_VERSION]);
+      await delay(clock, POLL_S);
+    }
     // One in motion or asleep does not tell its version.
     return version ?? "Grbl";
   } finally {

@@ -14,8 +14,11 @@ const MM_PER_INCH = 25.4;
 /** Relative difference up to which two values count as the same. */
 const SAME = 0.01;
 
+const BOTH_POSITIONS = 3;
+
 /** The numbers of the settings. Those of an axis follow each other in the order X, Y, Z. */
 const SETTING = {
+  report: 10,
   junctionMm: 11,
   arcTolerance: 12,
   reportInches: 13,
@@ -50,6 +53,11 @@ export class BoardSettings {
   /** The unit of the positions that it reports. */
   get mmPerUnit(): number {
     return this.isOn(SETTING.reportInches) ? MM_PER_INCH : 1;
+  }
+
+  /** A Grbl 0.9 reports its position both in machine and work coordinates. Later versions need one: they report the offset. */
+  get hasBothPositions(): boolean {
+    return ((this.values.get(SETTING.report) ?? BOTH_POSITIONS) & BOTH_POSITIONS) === BOTH_POSITIONS;
   }
 
   /** It locks itself at each start, until it is homed. */

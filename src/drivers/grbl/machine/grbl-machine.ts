@@ -27,11 +27,13 @@ import {
   HOME,
   isAtDoor,
   isLocked,
+  isOldVersion,
   isSleeping,
   locked,
   needsReset,
   noSwitches,
   NOT_LIFTED,
+  unplaced,
   type Status,
 } from "../protocol.js";
 import { endLeft } from "./braking.js";
@@ -135,6 +137,9 @@ export class GrblMachine implements Machine {
   async prepareMotors(settings: MachineSettings): Promise<MachineState> {
     const profile = this.use(settings);
     penLiftOf(profile);
+    if (isOldVersion(this.firmware) && !this.session.settings.hasBothPositions) {
+      throw unplaced("in the console");
+    }
     // The Grbl locks itself when it is woken, because the carriage may have been pushed. It counts as at home then.
     if (this.isAsleep) await this.recovered(await this.session.reset(), true);
     this.isAsleep = false;

@@ -12,7 +12,6 @@ import { LineSession, type LineProtocol } from "../../line-session.js";
 import type { SessionLog } from "../../session-log.js";
 import { SilenceWatch } from "../../silence-watch.js";
 import { delay, type Clock, type Transport } from "../../transport.js";
-import { SYNC } from "../grbl-job.js";
 import { QUEUE_MOVES, type Axes } from "../model/planner.js";
 import {
   alarm,
@@ -38,11 +37,13 @@ import {
   stateError,
   statusOf,
   unanswered,
+  unplaced,
   versionAfter,
   type Status,
 } from "../protocol.js";
 import { BoardSettings } from "./board-settings.js";
 import { isSamePlace } from "./braking.js";
+import { askVersion } from "./identify.js";
 import { SentLines, type Settle } from "./sent-lines.js";
 
 /** What a job that is being played learns from the session. */
@@ -67,14 +68,9 @@ const OFFSET_TRIES = 35;
 const POLL_S = 0.2;
 /** An Arduino restarts when its port is opened, and does not answer for up to two seconds. */
 const IDENTIFY_TRIES = 4;
-const IDENTIFY_S = 1;
-/** How long a Grbl may take for what is in its buffers, s. */
-const FINISH_S = 60;
-/** How long a device may talk while it starts, s. Later it is no Grbl if it has not reported its status. */
-const START_S = 3;
 /** The longest search for switches, s. */
 const HOMING_S = 180;
-/** Time for braking, and for the greeting after a reset. */
+/** Time for the greeting after a reset. */
 const HOLD_S = 0.5;
 
 export class GrblSession implements LineProtocol {
@@ -94,6 +90,9 @@ export class GrblSession implements LineProtocol {
   foundModes = "";
   /** Resets that were sent. */
   resetCount = 0;
+  /** It has said that it has started. */
+  isGreeted = false;
+  lastStatus: Status | null = null;
 
   private buffers = { queueMoves: QUEUE_MOVES, rxBytes: RX_BYTES };
   private readonly sent = new SentLines();
@@ -109,7 +108,8 @@ export class GrblSession implements LineProtocol {
   private resetting: Promise<Status> | null = null;
   /** Notices a board that reports its state, but does not answer its lines. */
   private readonly missing: SilenceWatch;
-  private lastStatus: Status | null = null;
+  /** Its latest report does not say where it is. */
+  private isUnplaced = false;
   private progressS = 0;
   private cancelPoll: (() => void) | null = null;
 
@@ -145,49 +145,14 @@ export class GrblSession implements LineProtocol {
     const version = await this.lines.identify({
       board: "a Grbl",
       tries: IDENTIFY_TRIES,
-      attempt: (index) => this.askVersion(index > 0),
+      attempt: async (index) => {
+        const version = await askVersion(this, index > 0);
+        this.sent.settleAll(silent(INFO));
+        return version;
+      },
     });
     this.isIdentified = true;
     return version;
-  }
-
-  private async askVersion(isAgain: boolean): Promise<string | null> {
-    // A Grbl that sleeps, holds or works for another program answers only after a reset. Reset in motion it is locked.
-    if (isAgain) {
-      if (this.lastStatus && isMoving(this.lastStatus.state)) {
-        this.now(NOW.hold);
-        await delay(this.clock, HOLD_S);
-      }
-      this.now(NOW.reset);
-      this.foundModes = "";
-    }
-    // "$" asks for help. It spoils a line that was left unfinished, such as G1X1 of G1X100, so that it is refused. "$I" is
-    // refused in motion.
-    const lines = ["$", "", CHECK, SYNC, INFO];
-    await this.untilQuiet(Promise.allSettled(lines.map((line) => this.send(line))), isAgain);
-    this.sent.settleAll(silent(INFO));
-    return this.version;
-  }
-
-  /**
-   * A Grbl may still draw what a process that has ended has sent. It answers late then, and first to those lines. Its place
-   * is known only at the end. `isAgain`: a reply to an earlier attempt must not count for a later line.
-   */
-  private async untilQuiet(answered: Promise<unknown>, isAgain: boolean): Promise<void> {
-    const { clock, log } = this;
-    let isAnswered = false;
-    void answered.then(() => (isAnswered = true));
-    const startS = clock.nowS();
-    let quietSinceS = startS;
-    while (clock.nowS() < startS + FINISH_S && clock.nowS() - quietSinceS < IDENTIFY_S) {
-      const { count } = log;
-      this.now(NOW.status);
-      await Promise.race([delay(clock, POLL_S), ...(isAnswered ? [] : [answered])]);
-      if (isAnswered && this.version !== null && !isAgain && clock.nowS() < startS + POLL_S) return;
-      const isGrbl = this.lastStatus !== null || clock.nowS() < startS + START_S;
-      const isBusy = log.count > count || (this.lastStatus !== null && isMoving(this.lastStatus.state));
-      if (isGrbl && isBusy && !isAgain) quietSinceS = clock.nowS();
-    }
   }
 
   /** Whether the buffer has room for another line now. */
@@ -276,7 +241,9 @@ export class GrblSession implements LineProtocol {
   }
 
   status(): Promise<Status> {
-    return this.within("its status", (resolve) => {
+    const why = (): PlotwrightError =>
+      this.isUnplaced ? unplaced("with another program") : silent("its status");
+    return this.within(why, (resolve) => {
       this.statusWaiters.push(resolve);
       this.now(NOW.status);
       this.poll();
@@ -301,7 +268,10 @@ export class GrblSession implements LineProtocol {
     this.resetCount++;
     if (this.isGreetingDue) await delay(this.clock, HOLD_S);
     this.isGreetingDue = false;
-    const greeted = this.within<void>("a reset", (resolve) => this.greetingWaiters.push(resolve));
+    const greeted = this.within<void>(
+      () => silent("a reset"),
+      (resolve) => this.greetingWaiters.push(resolve),
+    );
     this.now(NOW.reset);
     await greeted;
     this.sent.settleAll(stopped());
@@ -309,10 +279,10 @@ export class GrblSession implements LineProtocol {
   }
 
   /** A board that does not answer counts as lost. */
-  private within<T>(what: string, begin: (resolve: (value: T) => void) => void): Promise<T> {
+  private within<T>(why: () => PlotwrightError, begin: (resolve: (value: T) => void) => void): Promise<T> {
     return new Promise((resolve, reject) => {
       if (this.failure) return reject(this.failure);
-      const silence = new SilenceWatch(this.clock, () => this.lines.fail(silent(what)));
+      const silence = new SilenceWatch(this.clock, () => this.lines.fail(why()));
       silence.expect(PATIENCE_S);
       const failed = (error: PlotwrightError): void => {
         silence.stop();
@@ -336,6 +306,8 @@ export class GrblSession implements LineProtocol {
     this.reportedOffset = offsetOf(line) ?? this.reportedOffset;
     const status = statusOf(line, this.offset, this.settings.mmPerUnit);
     if (status) return this.reported(status);
+    this.isUnplaced = isReport(line);
+    this.isGreeted ||= isGreeting(line);
     this.takeVersion(versionAfter(line, this.version));
     this.buffers = buffersOf(line) ?? this.buffers;
     this.settings.take(line);
@@ -368,6 +340,7 @@ export class GrblSession implements LineProtocol {
   }
 
   private reported(status: Status): void {
+    this.isUnplaced = false;
     const before = this.lastStatus;
     this.lastStatus = status;
     const hasMoved = before === null || !isSamePlace(before, status);

@@ -16,7 +16,7 @@ export interface Reported {
   /** Blocks and characters that are free. */
   readonly free: string;
   readonly feed: number;
-  /** Its setting $10: 1 for machine positions in place of work positions, plus 2 for what is free. */
+  /** Its setting $10: 1 for machine positions in place of work positions, plus 2 for what is free; of 0.9: `oldReport`. */
   readonly mask: number;
 }
 
@@ -44,6 +44,8 @@ export interface Face {
   readonly doorResuming: number;
   /** It knows G2 and G3. */
   readonly takesArcs: boolean;
+  /** The answer to `v`, which has no "ok"; null: it is refused. */
+  readonly ownVersion: string | null;
 }
 
 const ARDUINO: Face = {
@@ -63,8 +65,23 @@ const ARDUINO: Face = {
   reportsHoming: false,
   doorResuming: 3,
   takesArcs: true,
+  ownVersion: null,
 };
 
+/** The mask of version 0.9: 1 for machine positions, 2 for work positions, 4 and 8 for what is used of its buffers. */
+function oldReport({ state, machineAt, workAt, free, mask }: Reported): string {
+  const [freeMoves, freeBytes] = free.split(",").map(Number);
+  const fields = [
+    `MPos:${machineAt}`,
+    `WPos:${workAt}`,
+    `Buf:${OLD_QUEUE - freeMoves}`,
+    `RX:${OLD_RX_BYTES - freeBytes}`,
+  ];
+  return `<${[state.split(":")[0], ...fields.filter((_, bit) => (mask >> bit) & 1)].join(",")}>`;
+}
+
+const OLD_QUEUE = 17;
+const OLD_RX_BYTES = 127;
 const OLD_ERRORS: Readonly<Record<number, string>> = { 9: "Alarm lock", 20: "Unsupported command" };
 const OLD_ALARMS: Readonly<Record<number, string>> = {
   1: "Hard limit",
@@ -87,10 +104,10 @@ const TABLE: Readonly<Record<FaceName, Face>> = {
     ...ARDUINO,
     greeting: "Grbl 0.9j ['$' for help]",
     info: ["[0.9j.20160303:]"],
-    queueMoves: 17,
-    rxBytes: 127,
+    queueMoves: OLD_QUEUE,
+    rxBytes: OLD_RX_BYTES,
     modes: (words) => `[${words}]`,
-    report: ({ state, machineAt, workAt }) => `<${state.split(":")[0]},MPos:${machineAt},WPos:${workAt}>`,
+    report: oldReport,
     error: (code) => `error: ${OLD_ERRORS[code] ?? `Invalid gcode ID:${code}`}`,
     alarm: (code) => `ALARM: ${OLD_ALARMS[code] ?? "Homing fail"}`,
     message: (words) => `[${words}]`,
@@ -122,6 +139,7 @@ const TABLE: Readonly<Record<FaceName, Face>> = {
     ...ARDUINO,
     greeting: "Grbl 1.1h DrawCore V2.09 ['$' for help]",
     takesArcs: false,
+    ownVersion: "DrawCore V2.09.20230318",
     mask: 2,
   },
 };

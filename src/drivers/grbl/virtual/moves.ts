@@ -52,7 +52,7 @@ export class VirtualMoves {
     const isMove = words.has("X") || words.has("Y") || words.has("Z");
     const motion = lasting.motionOf(modes);
     const isArc = motion === "G2" || motion === "G3";
-    if (isArc && !settings.face.takesArcs) return ERROR.unknown;
+    if (isArc && !settings.takesArcs) return ERROR.unknown;
     const feed = words.get("F") ?? lasting.feed;
     if (isMove && motion !== "G0" && feed === 0) return ERROR.noFeed;
     if (!isMove && isArc && modes.includes(motion)) return ERROR.noAxis;

@@ -14,6 +14,7 @@ import { AT_SWITCHES, Coordinates } from "./coordinates.js";
 import { DollarLines } from "./dollar-lines.js";
 import { GcodeLines } from "./gcode-lines.js";
 import { ERROR, Modes } from "./gcode-words.js";
+import { Holds } from "./holds.js";
 import { GrblMotion } from "./motion.js";
 import { RxBuffer } from "./rx-buffer.js";
 import { States } from "./states.js";
@@ -53,6 +54,7 @@ export class VirtualGrbl implements VirtualMachine {
   private isClosed = false;
   private readonly dollar: DollarLines;
   private readonly gcode: GcodeLines;
+  private readonly holds: Holds;
   private readonly ink = new Ink(
     () => this.isPenDown,
     () => this.onPage,
@@ -88,6 +90,15 @@ export class VirtualGrbl implements VirtualMachine {
         this.rx.dropLine();
       },
       begin: () => this.begin(),
+    });
+    this.holds = new Holds({
+      ...{ settings, states, motion, modes, pen: this.pen, wait: this.wait },
+      nowS: () => this.nowS,
+      reply: (line) => this.reply(line),
+      cancelStart: () => {
+        this.startDueS = null;
+      },
+      failHoming: (alarm) => this.failHoming(alarm),
     });
     this.gcode = new GcodeLines({
       ...parts,
@@ -156,7 +167,7 @@ export class VirtualGrbl implements VirtualMachine {
   /** As if its hold button was pressed. */
   pressHold(): void {
     this.catchUp();
-    this.hold();
+    this.holds.hold();
     this.schedule();
   }
 
@@ -164,7 +175,7 @@ export class VirtualGrbl implements VirtualMachine {
   setDoor(isOpen: boolean): void {
     this.catchUp();
     this.states.door.isOpen = isOpen;
-    if (isOpen) this.stopForDoor();
+    if (isOpen) this.holds.stopForDoor();
     this.schedule();
   }
 
@@ -225,10 +236,10 @@ export class VirtualGrbl implements VirtualMachine {
   /** Whether it is a real-time command; those beyond ASCII that it does not know are dropped. */
   private takesAtOnce(character: string): boolean {
     if (character === "?") this.report();
-    else if (character === "!") this.hold();
-    else if (character === "~") this.resume();
+    else if (character === "!") this.holds.hold();
+    else if (character === "~") this.holds.resume();
     else if (character === "\x18") this.reset();
-    else if (character === "\x84") this.stopForDoor();
+    else if (character === "\x84") this.holds.stopForDoor();
     else return character >= "\x80";
     return true;
   }
@@ -240,6 +251,12 @@ export class VirtualGrbl implements VirtualMachine {
       const received = this.wait.isRunning || this.states.isAsleep ? null : this.rx.line;
       if (received === null) break;
       const line = received.replace(/\s|\(.*?\)|;.*/g, "");
+      const { ownVersion } = this.settings.face;
+      if (line.toUpperCase() === "V" && ownVersion !== null) {
+        this.rx.dropLine();
+        this.reply(ownVersion);
+        continue;
+      }
       const answer = this.perform(line.toUpperCase());
       if (answer === null) break;
       if (answer === 0) this.pen.executed(line.toUpperCase(), this.nowS);
@@ -279,24 +296,13 @@ export class VirtualGrbl implements VirtualMachine {
       this.startDueS = null;
     }
     this.motion.advance(toS);
-    if (!this.motion.isMoving) this.rested();
-    if (this.states.door.hasResumed(toS)) this.goOn(toS);
+    if (!this.motion.isMoving) this.holds.rested();
+    if (this.states.door.hasResumed(toS)) this.holds.goOn(toS);
     const ended = this.wait.takeEnded(toS);
     if (ended) {
       this.ink.see();
       ended();
     }
-  }
-
-  /** It has come to rest, or was at rest. */
-  private rested(): void {
-    if (this.states.door.rested()) this.pen.signal(null, this.nowS);
-    // A hold ends a jog.
-    if (this.states.isJogging && this.states.isHeld) {
-      this.motion.stop();
-      this.states.isHeld = this.states.door.state !== null;
-    }
-    if (this.motion.isEmpty) this.states.isJogging = false;
   }
 
   private performOther(): void {
@@ -344,38 +350,6 @@ export class VirtualGrbl implements VirtualMachine {
     this.rx.dropLine();
   }
 
-  private hold(): void {
-    if (this.states.cannotHold || this.states.isAsleep) return;
-    this.wait.hold(this.nowS);
-    this.states.isHeld = true;
-    this.startDueS = null;
-    if (this.motion.isMoving) this.motion.hold();
-    else this.rested();
-  }
-
-  private stopForDoor(): void {
-    if (this.states.isHoming) return this.failHoming(7);
-    if (this.states.cannotHold) return;
-    this.reply(this.settings.face.message("Check Door"));
-    if (this.states.isAsleep) return;
-    this.states.door.stop();
-    this.hold();
-  }
-
-  private resume(): void {
-    if (!this.states.isHeld || this.motion.isMoving) return;
-    if (this.states.door.state === null) return this.goOn(this.nowS);
-    if (!this.states.door.resume(this.nowS, this.modes.signal !== null)) return;
-    this.pen.signal(this.modes.signal, this.nowS);
-    if (this.states.door.hasResumed(this.nowS)) this.goOn(this.nowS);
-  }
-
-  private goOn(nowS: number): void {
-    this.states.isHeld = false;
-    this.wait.goOn(nowS);
-    if (!this.motion.isEmpty) this.motion.go(nowS);
-  }
-
   private reset(): void {
     if (this.motion.isMoving) {
       this.reply(this.settings.face.alarm(3));
@@ -415,7 +389,7 @@ export class VirtualGrbl implements VirtualMachine {
     this.settings.offsetDue = 0;
     this.reply(this.settings.face.greeting);
     if (this.states.isLocked) this.reply(this.settings.face.message("'$H'|'$X' to unlock"));
-    else if (this.states.door.isOpen) this.stopForDoor();
+    else if (this.states.door.isOpen) this.holds.stopForDoor();
   }
 
   private report(): void {

@@ -13,6 +13,8 @@ export interface VirtualGrblOptions {
   readonly rxBytes?: number;
   /** The code with which it refuses a line when `spoil("refused")` was called; default 20. */
   readonly refusal?: number;
+  /** Whether it knows G2 and G3; default: as its face does. */
+  readonly takesArcs?: boolean;
   /** Settings by number, where they differ from the machine's profile: { 110: 3000 } is $110=3000. */
   readonly settings?: Readonly<Record<number, number>>;
 }
@@ -49,6 +51,7 @@ export class VirtualSettings {
   readonly face: Face;
   readonly rxBytes: number;
   readonly refusal: number;
+  readonly takesArcs: boolean;
   /** Reports until the next one with the work offset. */
   offsetDue = 0;
   private readonly settings = new Map<number, number>();
@@ -57,10 +60,11 @@ export class VirtualSettings {
   constructor(
     machine: MachineProfile,
     version: string,
-    { face = faceNamed(version), rxBytes, refusal = ERROR.unknown, settings = {} }: VirtualGrblOptions,
+    { face = faceNamed(version), rxBytes, refusal = ERROR.unknown, takesArcs, settings = {} }: VirtualGrblOptions,
   ) {
     this.refusal = refusal;
     this.face = faceOf(face);
+    this.takesArcs = takesArcs ?? this.face.takesArcs;
     this.rxBytes = rxBytes ?? this.face.rxBytes;
     const { speed, accel, junctionMm } = axisLimits(grblOf(machine));
     const finite = (value: number, other: number): number => (Number.isFinite(value) ? value : other);

@@ -102,8 +102,8 @@ describe("a refused arc", () => {
     }
   });
 
-  it("of a DrawCore whose profile says arcs tells what to change", async () => {
-    const { begin, within } = await newPlotter({ face: "DrawCore" }, GRBL);
+  it("of a Grbl whose profile says arcs tells what to change", async () => {
+    const { begin, within } = await newPlotter({ takesArcs: false }, GRBL);
     expect(await within((await begin()).finished)).toMatch(
       /^board-error: The Grbl refused G3\S+ with error:20 .* switch off in the machine's profile that it draws arcs\.$/,
     );

@@ -20,7 +20,7 @@ const VERSIONS: Readonly<Record<FaceName, string>> = {
 };
 
 describe.each(FACES)("a %s", (face) => {
-  it("is known by its greeting, or without one by its answer to $I", async () => {
+  it("is known by its greeting, or without one by its answers", async () => {
     for (const isReset of [true, false]) {
       const world = new ManualClock();
       const board = new VirtualGrbl({ clock: world, speed: 1, machine: GRBL }, { face });
@@ -29,9 +29,7 @@ describe.each(FACES)("a %s", (face) => {
       const found = grblDriver.identify(line, options);
       if (isReset) board.restart();
       const { firmware } = await world.run(found, 30);
-      // A DrawCore is named only in its greeting.
-      const expected = !isReset && face === "DrawCore" ? "Grbl 1.1h" : VERSIONS[face];
-      expect(firmware).toBe(expected);
+      expect(firmware).toBe(VERSIONS[face]);
       expect(CONTROLLERS.grbl.firmware.isOwn(firmware)).toBe(true);
       board.close();
     }
@@ -163,13 +161,17 @@ describe("lines of the controllers", () => {
   it.each([
     ["<Idle,MPos:10.000,20.000,3.000,WPos:4.000,5.000,6.000>", [0, 0, 0], [4, 5, 6], [10, 20, 3]],
     ["<Run,MPos:1.000,-2.000,3.000,WPos:1.000,-2.000,3.000,Buf:3,RX:12>", [0, 0, 0], [1, -2, 3], [1, -2, 3]],
+    ["<Idle,MPos:10.000,20.000,3.000>", [6, 15, -3], [4, 5, 6], [10, 20, 3]],
+    ["<Idle,WPos:4.000,5.000,6.000,Buf:0>", [6, 15, -3], [4, 5, 6], [10, 20, 3]],
+    ["<Hold,MPos:10.000,20.000,3.000,Buf:3,RX:12,Lim:000>", [6, 15, -3], [4, 5, 6], [10, 20, 3]],
     ["<Idle|MPos:10.000,20.000,3.000|FS:0,0>", [6, 15, -3], [4, 5, 6], [10, 20, 3]],
     ["<Idle|WPos:4.000,5.000,6.000|Bf:15,128|FS:0,0>", [6, 15, -3], [4, 5, 6], [10, 20, 3]],
   ] as const)("%s tells both positions", (line, offset, at, machineAt) => {
     expect(statusOf(line, offset, 1)).toMatchObject({ at, machineAt });
   });
 
-  it("a report of 0.9 tells the work offset", () => {
+  it("a report of 0.9 tells the work offset, if it has both positions", () => {
     expect(offsetOf("<Idle,MPos:10.000,20.000,3.000,WPos:4.000,5.000,6.000>")).toEqual([6, 15, -3]);
+    expect(offsetOf("<Idle,MPos:10.000,20.000,3.000>")).toBeNull();
   });
 });

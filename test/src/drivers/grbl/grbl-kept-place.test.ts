@@ -233,3 +233,21 @@ describe("a plot with a pen stop", () => {
     }
   });
 });
+
+it("a DrawCore that greets only at the first connection is the same board at the next one", async () => {
+  const { world, board, driver, begin, line, within } = await newPlotter({ face: "DrawCore" });
+  const before = line();
+  before.unplug();
+  while (line() === before) await world.advance(0.1);
+  // As a board does whose port is opened for the first time.
+  board.restart();
+  await world.advance(6);
+  expect(driver.state).toMatchObject({ connection: "idle", firmware: "DrawCore 2.09" });
+  await begin();
+  await world.advance(3);
+  line().unplug();
+  await world.advance(6);
+  expect(driver.state).toMatchObject({ connection: "idle", firmware: "DrawCore 2.09" });
+  expect(driver.state.xMm).not.toBeNull();
+  expect(await within(driver.move({ kind: "home" }))).toBeUndefined();
+});

@@ -7,6 +7,7 @@ import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.j
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../../../src/schema/index.js";
 import { GRBL, NO_EVENTS } from "../../../support/machines/machine.js";
 import { DRAWING, drawnMm, expectDrawn } from "../../../support/plots/live-plot.js";
+import { logOfPlot } from "../../../support/plots/grbl-plotter.js";
 import { LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js";
 import { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { ScriptedLine } from "../../../support/machines/scripted-line.js";
@@ -86,7 +87,7 @@ describe("a plotter with a Grbl", () => {
     expect(await world.run(run.finished)).toEqual({ kind: "done" });
     expectDrawn(board as never, DRAWING, 0.02);
     expect(Math.abs(drawnMm(board) - lengthMm(DRAWING))).toBeLessThan(0.2);
-    expect(driver.log()).not.toMatch(/ALARM|error:/);
+    expect(logOfPlot(driver)).not.toMatch(/ALARM|error:/);
     expect(board.state().lostCount).toBe(0);
   });
 

@@ -7,7 +7,7 @@ import type { VirtualGrblOptions } from "../../../../src/drivers/grbl/virtual/vi
 import type { StrokeSet } from "../../../../src/index.js";
 import { sampleStrokes } from "../../../support/drawings/sample-strokes.js";
 import { farthest, SegmentGrid } from "../../../support/drawings/segment-grid.js";
-import { newPlotter } from "../../../support/plots/grbl-plotter.js";
+import { logOfPlot, newPlotter } from "../../../support/plots/grbl-plotter.js";
 import { KeepingPlanner } from "../../../support/drawings/stop-truth.js";
 import { IS_FULL } from "../../../support/runs/full-run.js";
 
@@ -68,7 +68,7 @@ describe.each(SAMPLES.slice(0, IS_FULL ? undefined : 1))("%s", (name) => {
       expect({ lostCount, penUp }).toEqual({ lostCount: 0, penUp: true });
       expect(starvedCount).toBeLessThanOrEqual(mostStarved);
       expect(Math.abs(tookS / planner.plots[0].trajectory.totalS - 1)).toBeLessThan(MOST_LATE);
-      expect(driver.log()).not.toMatch(/ALARM|error:/);
+      expect(logOfPlot(driver)).not.toMatch(/ALARM|error:/);
       const drawn = board.drawn().flatMap(({ penDown, xy }) => (penDown ? [xy] : []));
       const asked = linesOf(strokes);
       expect(farthest(points(drawn), gridOf(asked))).toBeLessThan(MOST_AWAY_MM);
