@@ -1,6 +1,7 @@
 /** Grbl's replies and real-time commands. */
 import { PlotwrightError } from "../../errors.js";
 import { homeAgain } from "../faults.js";
+import { alarmWords, errorWords } from "./codes.js";
 import { difference, sum, type Axes } from "./model/planner.js";
 
 /** Real-time commands: single bytes that act at once, need no line end and no room in the buffer, and get no `ok`. */
@@ -21,6 +22,9 @@ export const HOME = "$H";
 /** Reports the parser's modes, as a line that begins with MODES_REPORT, and changes nothing. */
 export const CHECK = "$G";
 export const MODES_REPORT = "[GC:";
+
+/** Ends a lock. */
+export const UNLOCK = "$X";
 
 /** The S of a spindle that runs, in a report of the modes; null if it stands, as after a reset. */
 export function servoSignalOf(modes: string): number | null {
@@ -158,79 +162,21 @@ function axesOf(report: string, name: string, mmPerUnit: number): Axes | null {
   return Number.isFinite(x + y + z) ? [x, y, z] : null;
 }
 
-const ERRORS: Readonly<Record<number, string>> = {
-  1: "a word begins with no letter",
-  2: "a number is missing or damaged",
-  3: "Grbl does not know that setting or command",
-  4: "a value must not be negative",
-  5: "homing is switched off ($22=0)",
-  6: "a step pulse would be too short",
-  7: "its stored settings were damaged, and it uses its defaults",
-  8: "the machine must be idle for that",
-  9: "the machine is locked after an alarm, or another program moves it by hand",
-  10: "soft limits need homing ($22=1)",
-  11: "the line is too long",
-  12: "a setting asks for more steps a second than it can make",
-  13: "its safety door is open: close it",
-  14: "a line to store is too long",
-  15: "the target is outside the machine's travel",
-  16: "a manual move is written wrongly",
-  17: "laser mode needs an output with PWM",
-  20: "Grbl does not know that command",
-  21: "two commands exclude each other",
-  22: "no feed rate was set",
-  23: "a whole number is needed",
-  24: "two commands in the line use the axes",
-  25: "a word is repeated",
-  26: "the command needs an axis",
-  27: "a line number is invalid",
-  28: "a value that the command needs is missing",
-  29: "Grbl does not have that coordinate system",
-  30: "machine coordinates need G0 or G1",
-  31: "an axis is given that the command does not use",
-  32: "an arc has no axis in its plane",
-  33: "the target is invalid",
-  34: "the radius of an arc does not reach its end",
-  35: "an arc has no centre",
-  36: "a word is not used by any command",
-  37: "a tool's length can only change along its own axis",
-  38: "the number of a tool is too high",
-};
-
 /** Unknown command, and what can be wrong with an arc. */
 const ARC_ERRORS = [20, 33, 34, 35];
 
-/** `reply`: "error:20", for example. */
-export function refusal(line: string, reply: string): PlotwrightError {
+/** `reply`: "error:20", for example; what it means depends on the version. */
+export function refusal(line: string, reply: string, version: string | null): PlotwrightError {
   const code = Number(reply.slice(6));
-  const why = ERRORS[code];
+  const why = errorWords(code, version);
+  const refused = `The Grbl refused ${line} with ${reply}${why ? ` (${why})` : ""}.`;
+  if (line === UNLOCK) return new PlotwrightError("board-error", refused);
   const advice =
     /^G[23]/.test(line) && ARC_ERRORS.includes(code)
       ? "switch off in the machine's profile that it draws arcs"
       : "check the machine's profile against its settings ($$)";
-  return new PlotwrightError(
-    "board-error",
-    `The Grbl refused ${line} with ${reply}${why ? ` (${why})` : ""}. If that happens again, ${advice}.`,
-  );
+  return new PlotwrightError("board-error", `${refused} If that happens again, ${advice}.`);
 }
-
-const ALARMS: Readonly<Record<number, string>> = {
-  1: "a limit switch was hit",
-  2: "the target is beyond the soft limits",
-  3: "the machine was reset during a motion",
-  4: "the probe was touched before it was used",
-  5: "the probe has touched nothing",
-  6: "the machine was reset while it sought its switches",
-  7: "the door was opened while it sought its switches",
-  8: "a switch was not released after homing",
-  9:
-    "a switch was not found. It may be unplugged, or the Grbl seeks one that the machine does not have, often that of Z: " +
-    "take that axis out of its homing cycle",
-  10: "its emergency stop was pressed, or a switch was not found",
-  11: "it must be homed first",
-  12: "a limit switch is touched already: move the carriage off it",
-  14: "it must be homed first",
-};
 
 /** Version 0.9 has words in place of numbers, and these for all that ends a search for switches. */
 const OLD_HOMING_ALARM = "Homing fail";
@@ -243,6 +189,13 @@ const OLD_ALARMS: Readonly<Record<string, number>> = {
 };
 /** Reported by a reset during motion, or in a search for switches. */
 const RESET_ALARMS: readonly (number | null)[] = [3, 6];
+
+/** What decides how errors are told. */
+interface Board {
+  readonly version: string | null;
+  /** The machine finds home by itself. */
+  readonly findsHome: boolean;
+}
 
 export interface Alarm {
   /** Null: unknown. */
@@ -259,16 +212,18 @@ export function alarmOf(line: string): Alarm | null {
   return { code, isReset: words === OLD_HOMING_ALARM || RESET_ALARMS.includes(code) };
 }
 
-/** `findsHome`: the machine finds home by itself. `name`: what the Grbl calls the alarm. */
-export const alarm = (code: number | null, findsHome: boolean, name = `ALARM:${code}`): PlotwrightError =>
-  new PlotwrightError(
+/** `name`: what the Grbl calls the alarm. */
+export function alarm(
+  code: number | null,
+  { findsHome, version }: Board,
+  name = `ALARM:${code}`,
+): PlotwrightError {
+  const why = code === null ? undefined : alarmWords(code, version);
+  const named = code === null ? "an alarm" : `${name}${why === undefined ? "" : ` (${why})`}`;
+  return new PlotwrightError(
     "board-error",
-    `The Grbl has stopped with ${named(code, name)}. Check the carriage's position: ${homeAgain(findsHome)}.`,
+    `The Grbl has stopped with ${named}. Check the carriage's position: ${homeAgain(findsHome)}.`,
   );
-
-function named(code: number | null, name: string): string {
-  if (code === null) return "an alarm";
-  return `${name}${ALARMS[code] ? ` (${ALARMS[code]})` : ""}`;
 }
 
 export const boardRestartedError = (findsHome: boolean): PlotwrightError =>
@@ -279,15 +234,15 @@ export const boardRestartedError = (findsHome: boolean): PlotwrightError =>
   );
 
 /** Why a plot or a move cannot go on in this state, in which its position is lost; null for another state. */
-export function stateError(state: string, findsHome: boolean): PlotwrightError | null {
-  if (isLocked(state)) return alarm(Number(/\d+/.exec(state)?.[0] ?? 0) || null, findsHome);
+export function stateError(state: string, board: Board): PlotwrightError | null {
+  if (isLocked(state)) return alarm(Number(/\d+/.exec(state)?.[0] ?? 0) || null, board);
   const why = isSleeping(state)
     ? "it has gone to sleep, by itself or because another program sent $SLP. Its motors are off"
     : state === "Home" && "another program has sent it to its switches";
   if (!why) return null;
   return new PlotwrightError(
     "board-error",
-    `The Grbl no longer draws: ${why}. Its position is lost: ${homeAgain(findsHome)}.`,
+    `The Grbl no longer draws: ${why}. Its position is lost: ${homeAgain(board.findsHome)}.`,
   );
 }
 
@@ -324,6 +279,16 @@ export const locked = (findsHome: boolean): PlotwrightError =>
         : "If the machine has switches, switch on that it finds home with them in its profile, and home it. Otherwise lift the pen " +
           "and push the carriage to home by hand, then send $X in the console."),
   );
+
+/** `$X` was refused for the reason in `why`, such as a pressed emergency stop; nothing but its end helps. */
+export const staysLocked = (why: PlotwrightError): PlotwrightError =>
+  new PlotwrightError(
+    "board-error",
+    `The Grbl stays locked, and nothing moves. ${why.message} When the cause is gone, it is unlocked and the pen is lifted.`,
+  );
+
+const DOOR_REFUSAL = "error:13";
+export const isDoorRefusal = (reply: string): boolean => reply === DOOR_REFUSAL;
 
 const CABLE = "Check the USB cable and its distance from motors and mains.";
 

@@ -44,6 +44,7 @@ import { leftPen } from "./left-pen.js";
 import { LineStream } from "./line-stream.js";
 import { GrblPen } from "./pen.js";
 import type { GrblSession } from "./session.js";
+import { unlock } from "./unlock.js";
 
 /** Allowance for the connection, the board and this computer. */
 const STOP_MS = 30;
@@ -68,8 +69,10 @@ export class GrblMachine implements Machine {
   private isHoming = false;
   /** Only the user may unlock it. */
   private isLocked = false;
-  /** It rests at an open door, and the place of the plot is known. */
-  private isStoppedByDoor = false;
+  /** What keeps it locked although it was to be unlocked: its door, its emergency stop …; null: nothing. */
+  private lockedBy: PlotwrightError | null = null;
+  /** Its open door or its emergency stop lets nothing move. */
+  private isBarred = false;
   /** An unfinished plot moved the carriage last. */
   private isInPlot = false;
   private byHand: LineStream | null = null;
@@ -105,8 +108,8 @@ export class GrblMachine implements Machine {
   }
 
   get memory(): GrblMemory {
-    const { home, pen, isStoppedByDoor, isInPlot } = this;
-    const foundMidPlot = isStoppedByDoor ? this.foundMidPlot : undefined;
+    const { home, pen, isBarred, isInPlot } = this;
+    const foundMidPlot = isBarred ? this.foundMidPlot : undefined;
     return { home, penZeroMm: pen.zeroMm, foundMidPlot, isInPlot };
   }
 
@@ -130,7 +133,7 @@ export class GrblMachine implements Machine {
     const status = await session.status();
     if (!isLocked(status.state)) this.remember(status, before, profile);
     await this.recovered(status);
-    if (this.isLocked && this.mayUnlock) throw doorOpen();
+    if (this.lockedBy) throw this.lockedBy;
     if (!this.isLocked) await this.liftLeft(status, settings, before);
   }
 
@@ -337,13 +340,13 @@ export class GrblMachine implements Machine {
     this.pen.setState(null);
     this.machineAt = machineAt;
     this.isLocked = isLocked(state) && !mayUnlock;
+    this.lockedBy = null;
     this.options.events.changed();
     // It takes no lines.
     if (this.isLocked || isAtDoor(state)) return;
     if (isLocked(state)) {
-      await this.session.attempt("$X");
-      // An open door keeps it locked.
-      this.isLocked = isLocked((await this.session.status()).state);
+      this.lockedBy = await unlock(this.session);
+      this.isLocked = this.lockedBy !== null;
       if (this.isLocked) return;
     }
     // If they are refused, so is the next move.
@@ -370,7 +373,7 @@ export class GrblMachine implements Machine {
     if (isSleeping(state)) this.home = null;
     const left = await this.session.reset();
     await this.recovered(left);
-    if (isAtDoor(left.state)) throw this.stoppedByDoor();
+    if (isAtDoor(left.state)) throw this.stoppedBy(doorOpen());
   }
 
   /** Throws if the Grbl is still locked; the user may have unlocked it meanwhile. */
@@ -378,14 +381,15 @@ export class GrblMachine implements Machine {
     await this.mustNotBeHeld();
     if (!this.isLocked) return;
     await this.recovered(await this.session.status());
-    if (this.isLocked) throw this.mayUnlock ? this.stoppedByDoor() : locked(this.session.findsHome);
+    if (this.lockedBy) throw this.stoppedBy(this.lockedBy);
+    if (this.isLocked) throw locked(this.session.findsHome);
   }
 
-  /** Ends the connection, so that it is made again when the door is closed. */
-  private stoppedByDoor(): PlotwrightError {
-    this.isStoppedByDoor = true;
-    this.session.fail(doorOpen());
-    return doorOpen();
+  /** Ends the connection, so that it is made again when the door is closed, or its emergency stop is released. */
+  private stoppedBy(cause: PlotwrightError): PlotwrightError {
+    this.isBarred = true;
+    this.session.fail(cause);
+    return cause;
   }
 
   /**

@@ -88,6 +88,8 @@ export class GrblSession implements LineProtocol {
   /** The latest report of the parser's modes, and the first one, from before any reset of ours; "": none has come. */
   modes = "";
   foundModes = "";
+  /** The latest answer with which it has refused a line: "error:20". */
+  lastRefusal = "";
   /** Resets that were sent. */
   resetCount = 0;
   /** It has said that it has started. */
@@ -324,7 +326,7 @@ export class GrblSession implements LineProtocol {
       const isOurs = isReset && this.greetingWaiters.length > 0;
       this.isLockOurs ||= isOurs;
       this.isGreetingDue = isReset && !isOurs;
-      if (!isOurs) this.broken(alarm(code, this.findsHome, line));
+      if (!isOurs) this.broken(alarm(code, this, line));
     } else if (isGreeting(line) && this.isGreetingDue) this.isGreetingDue = false;
     else if (isGreeting(line)) {
       const waiters = this.greetingWaiters.splice(0);
@@ -349,12 +351,13 @@ export class GrblSession implements LineProtocol {
     if (hasMoved || isSlow) this.expectAnswer();
     for (const waiter of this.statusWaiters.splice(0)) waiter(status);
     if (!this.playing || this.resetting) return;
-    const error = stateError(status.state, this.findsHome);
+    const error = stateError(status.state, this);
     if (error) this.broken(error);
     else this.playing.reported(status.state);
   }
 
   private settleFirst(errorReply: string | null): void {
+    this.lastRefusal = errorReply ?? this.lastRefusal;
     const first = this.sent.next();
     if (!first) return this.playing?.outOfStep(outOfStep());
     this.progressS = this.clock.nowS();
@@ -362,7 +365,7 @@ export class GrblSession implements LineProtocol {
     // The answer was that of another line.
     if (first.line === CHECK && errorReply === null && !first.isReported)
       this.playing?.outOfStep(outOfStep());
-    first.settle(errorReply === null ? null : refusal(first.line, errorReply));
+    first.settle(errorReply === null ? null : refusal(first.line, errorReply, this.version));
   }
 
   private checkReported(): void {

@@ -58,6 +58,7 @@ export class DollarLines {
     const { states, reply } = this.board;
     if (!states.isLocked) return 0;
     if (states.door.isOpen) return ERROR.door;
+    if (states.isStopPressed) return ERROR.stop;
     reply("[MSG:Caution: Unlocked]");
     states.isLocked = false;
     return 0;

@@ -20,6 +20,7 @@ export const ERROR = {
   badRadius: 34,
   noCentre: 35,
   unused: 36,
+  stop: 50,
 } as const;
 
 const WORDS = /([A-Z])([-+]?\d*\.?\d+)/g;

@@ -8,6 +8,8 @@ export class States {
   isHoming = false;
   /** A hold, or its door, has stopped it. */
   isHeld = false;
+  /** Its emergency stop keeps it locked. */
+  isStopPressed = false;
   /** Lines are only checked. */
   isChecking = false;
   isJogging = false;

@@ -164,6 +164,12 @@ export class VirtualGrbl implements VirtualMachine {
     this.schedule();
   }
 
+  /** Its emergency stop, which some of Grbl's children have, is pressed or released. */
+  setStop(isPressed: boolean): void {
+    this.states.isStopPressed = isPressed;
+    if (isPressed) this.stopWith(10);
+  }
+
   /** As if its hold button was pressed. */
   pressHold(): void {
     this.catchUp();

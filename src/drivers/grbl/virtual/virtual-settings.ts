@@ -60,7 +60,13 @@ export class VirtualSettings {
   constructor(
     machine: MachineProfile,
     version: string,
-    { face = faceNamed(version), rxBytes, refusal = ERROR.unknown, takesArcs, settings = {} }: VirtualGrblOptions,
+    {
+      face = faceNamed(version),
+      rxBytes,
+      refusal = ERROR.unknown,
+      takesArcs,
+      settings = {},
+    }: VirtualGrblOptions,
   ) {
     this.refusal = refusal;
     this.face = faceOf(face);

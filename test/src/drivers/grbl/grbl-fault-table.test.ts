@@ -157,34 +157,41 @@ const LINES: Readonly<Record<string, Row>> = {
 };
 
 const REFUSALS = [...Array.from({ length: 38 }, (_, i) => i + 1), 79];
-/** Those without a meaning in the table of Grbl 1.1. */
-const UNKNOWN = [18, 19, 79];
+/** Those without a meaning on a child of Grbl. */
+const UNKNOWN: Readonly<Record<FaceName, readonly number[]>> = {
+  "1.1": [18, 19, 79],
+  "0.9": [18, 19, 79],
+  DrawCore: [18, 19, 79],
+  FluidNC: [19, 79],
+  grblHAL: [],
+};
 const ADVICE =
   "\\. If that happens again, (check the machine's profile|switch off in the machine's profile that it draws arcs)";
 const WITHOUT_REASON = new RegExp(ADVICE);
 const WITH_REASON = new RegExp(` \\([a-zG].{8,}\\)${ADVICE}`);
 
-const CODES: Readonly<Record<string, Row>> = Object.fromEntries([
-  ...REFUSALS.map((code) => {
-    const reason = UNKNOWN.includes(code) ? WITHOUT_REASON : WITH_REASON;
-    const ends = new RegExp(`^board-error: The Grbl refused \\S+ with error:${code}${reason.source}`);
-    const row = unsure(({ board }) => board.spoil("refused"), ends);
-    return [`it refuses a line with error:${code}`, { ...row, options: { refusal: code } }];
-  }),
-  ...[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14].map((code) => [
-    `it stops with ALARM:${code}`,
-    lost(
-      ({ board }) => board.stopWith(code),
-      new RegExp(
-        `The Grbl has stopped with ALARM:${code} \\([a-zG].{8,}\\)\\. Check the carriage's position`,
+const codesOf = (face: FaceName): Readonly<Record<string, Row>> =>
+  Object.fromEntries([
+    ...REFUSALS.map((code) => {
+      const reason = UNKNOWN[face].includes(code) ? WITHOUT_REASON : WITH_REASON;
+      const ends = new RegExp(`^board-error: The Grbl refused \\S+ with error:${code}${reason.source}`);
+      const row = unsure(({ board }) => board.spoil("refused"), ends);
+      return [`it refuses a line with error:${code}`, { ...row, options: { refusal: code } }];
+    }),
+    ...[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14].map((code) => [
+      `it stops with ALARM:${code}`,
+      lost(
+        ({ board }) => board.stopWith(code),
+        new RegExp(
+          `The Grbl has stopped with ALARM:${code} \\([a-zG].{8,}\\)\\. Check the carriage's position`,
+        ),
       ),
-    ),
-  ]),
-  [
-    "it stops with an alarm of its own",
-    lost(({ board }) => board.stopWith(37), /The Grbl has stopped with ALARM:37\. /),
-  ],
-]);
+    ]),
+    [
+      "it stops with an alarm of its own",
+      lost(({ board }) => board.stopWith(37), /The Grbl has stopped with ALARM:37\. /),
+    ],
+  ]);
 
 /** Plots, with the fault after `atS`, and resumes as a person would. */
 async function plotWith(row: Row, face: FaceName, ordinary: MachineProfile, atS: number) {
@@ -261,7 +268,7 @@ describe.each<FaceName>(["grblHAL", "FluidNC"])("a plot on a %s", { timeout: 60_
 });
 
 describe.each(IS_FULL ? FACES : FACES.slice(0, 1))("a plot on a %s", { timeout: 60_000 }, (face) => {
-  it.each(Object.entries(CODES))("%s", async (name, row) => {
+  it.each(Object.entries(codesOf(face)))("%s", async (name, row) => {
     expect(await wrongOnes(name, row, face, GRBL, cases(6, 1))).toEqual([]);
   });
 });
