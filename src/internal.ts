@@ -165,6 +165,7 @@ export {
   DIRECTIONS,
   machineNamed,
   machineTurned,
+  scaleMeasured,
   stepsPerMmMeasured,
   type Direction,
 } from "./machines/set-up.js";

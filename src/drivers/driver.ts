@@ -48,6 +48,11 @@ export interface ControllerDescription {
    * Labels of the settings that do not affect its plots, by path, such as "motion.layers.*.cornerMm". Left out: none.
    */
   readonly unusedSettings?: Readonly<Record<string, string>>;
+  /**
+   * For a controller that is told where to go in mm: it mixes the motors and counts steps by itself. What to change in it,
+   * in words, so that what it draws becomes that many times as large along its two axes. Left out: it is told steps.
+   */
+  readonly scaleAdvice?: (first: number, second: number) => string;
 }
 
 /** One of several groups of fields that a profile has, such as the ways to lift a pen. */

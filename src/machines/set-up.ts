@@ -60,7 +60,31 @@ export function stepsPerMmMeasured(
   measuredXMm: number,
   measuredYMm: number = measuredXMm,
 ): number {
-  const measuredMm = (measuredXMm + measuredYMm) / 2;
+  checkMeasured(drawnMm, measuredXMm, measuredYMm);
+  return (machine.stepsPerMm * drawnMm) / meanOf(measuredXMm, measuredYMm);
+}
+
+/**
+ * How many times as far each of the machine's own axes has to go, so that a square has its true size. For machines whose
+ * controller counts steps by itself.
+ *
+ * @throws PlotwrightError "bad-setting" for impossible measurements
+ */
+export function scaleMeasured(
+  machine: MachineProfile,
+  drawnMm: number,
+  measuredXMm: number,
+  measuredYMm: number,
+): readonly [first: number, second: number] {
+  checkMeasured(drawnMm, measuredXMm, measuredYMm);
+  const [x, y] = [drawnMm / measuredXMm, drawnMm / measuredYMm];
+  return machine.swapAxes ? [y, x] : [x, y];
+}
+
+const meanOf = (a: number, b: number): number => (a + b) / 2;
+
+function checkMeasured(drawnMm: number, measuredXMm: number, measuredYMm: number): void {
+  const measuredMm = meanOf(measuredXMm, measuredYMm);
   const scale = drawnMm / measuredMm;
   const isOneSize = Math.abs(measuredXMm - measuredYMm) <= 0.2 * measuredMm;
   if (!(measuredXMm > 0 && measuredYMm > 0 && scale < MAX_SCALE && scale > 1 / MAX_SCALE && isOneSize)) {
@@ -69,7 +93,6 @@ export function stepsPerMmMeasured(
       `A ${drawnMm} mm square cannot have come out as ${measuredXMm} × ${measuredYMm} mm: measure it again, in mm.`,
     );
   }
-  return machine.stepsPerMm * scale;
 }
 
 const lettersOf = (text: string): string => text.toLowerCase().replace(/[^a-z0-9]/g, "");

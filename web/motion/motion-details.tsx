@@ -40,9 +40,9 @@ export const MotionDetails = () => {
       {!isPlannedHere && <p className="note">{words.plannedByController}</p>}
       <LimitFields which="draw" title={words.drawing} limits={motion.draw} mode={motion.mode} />
       <LimitFields which="travel" title={words.travelling} limits={motion.travel} mode={motion.mode} />
+      <AxisLimitFields motion={motion} />
       {isPlannedHere && (
         <>
-          <AxisLimitFields motion={motion} />
           <ShaperSelect motion={motion} />
           <ModeChoice mode={motion.mode} />
         </>
@@ -143,29 +143,40 @@ const LimitFields = ({ which, title, limits, mode }: LimitFieldsProps) => {
 const AXIS_KEYS = Object.keys(AXIS_TABLE) as (keyof typeof AXIS_TABLE)[];
 
 /** For a machine that is heavier along one axis; an empty field is no limit besides those above. */
-const AxisLimitFields = ({ motion }: { motion: MotionSettings }) => {
+const AxisLimitFields = ({ motion }: { motion: MotionSettings }) => (
+  <fieldset className="subgroup">
+    <legend>{words.axes}</legend>
+    {AXIS_KEYS.map((key) => (
+      <AxisLimitField key={key} which={key} value={motion[key] ?? null} />
+    ))}
+    <p className="note">{words.axesHint}</p>
+  </fieldset>
+);
+
+interface AxisLimitFieldProps {
+  readonly which: (typeof AXIS_KEYS)[number];
+  readonly value: number | null;
+}
+
+const AxisLimitField = ({ which, value }: AxisLimitFieldProps) => {
+  const isAxisUsed = useIsUsed(`motion.${which}`);
   const change = useMotionChange();
+  if (!isAxisUsed) return null;
   return (
-    <fieldset className="subgroup">
-      <legend>{words.axes}</legend>
-      {AXIS_KEYS.map((key) => (
-        <OwnNumber
-          key={key}
-          {...AXIS_TABLE[key]}
-          value={motion[key] ?? null}
-          inherited={null}
-          resetLabel={words.noLimit(AXIS_TABLE[key].label)}
-          onChange={(value) => change(key, { [key]: value })}
-        />
-      ))}
-      <p className="note">{words.axesHint}</p>
-    </fieldset>
+    <OwnNumber
+      {...AXIS_TABLE[which]}
+      value={value}
+      inherited={null}
+      resetLabel={words.noLimit(AXIS_TABLE[which].label)}
+      onChange={(next) => change(which, { [which]: next })}
+    />
   );
 };
 
 const SendAhead = () => {
   const sendAheadMs = usePageState((state) => state.settings.sendAheadMs);
   const { changeSettings } = useActions();
+  if (!useIsUsed("sendAheadMs")) return null;
   return (
     <SettingField
       setting={STREAM_TABLE.sendAheadMs}

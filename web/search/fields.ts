@@ -233,7 +233,9 @@ const MOTION: readonly Field[] = [
     words: "fine, normal, fast, precise, exact",
     ...ifPlannedHere,
   }),
-  ...Object.values<Setting>(AXIS_TABLE).map((setting) => row("details", setting, ifPlannedHere)),
+  ...Object.entries<Setting>(AXIS_TABLE).map(([key, setting]) =>
+    row("details", setting, { uses: `motion.${key}` }),
+  ),
   row("details", MOTION_TABLE.shaper, {
     uses: "motion.shaper",
     whyOff: ({ settings }) => (findMachine(settings)?.springs ? null : words.needsMeasured),
@@ -247,7 +249,7 @@ const MOTION: readonly Field[] = [
     instead: unless(({ settings }) => Boolean(settings.motion.fit), at("details", detailsText.fit)),
     ...ifFits,
   }),
-  row("details", STREAM_TABLE.sendAheadMs),
+  row("details", STREAM_TABLE.sendAheadMs, { uses: "sendAheadMs" }),
 ];
 
 const overlaps = ({ settings }: PageState): boolean => settings.pen.overlap !== "off";

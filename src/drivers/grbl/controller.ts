@@ -5,6 +5,14 @@ import { findsHome, GRBL_FIELDS } from "./model/grbl-controller.js";
 import { LIFT_CHOICE, liftFault } from "./model/pen-lift.js";
 import { UNUSED_SETTINGS } from "./unused-settings.js";
 
+/** `$100` and `$101` are its steps per mm. */
+function scaleAdvice(...factors: readonly [first: number, second: number]): string {
+  const changed = factors.flatMap((factor, axis) =>
+    factor === 1 ? [] : [`$${100 + axis} by ${factor.toFixed(4)}`],
+  );
+  return `The Grbl counts its steps by itself. Multiply ${changed.join(" and ")}, and send that in the console, such as $100=81.6.`;
+}
+
 export const description: ControllerDescription = {
   fields: GRBL_FIELDS,
   choice: LIFT_CHOICE,
@@ -34,6 +42,7 @@ export const description: ControllerDescription = {
   },
   consoleExamples: ["$$", "$#", "$I"],
   unusedSettings: UNUSED_SETTINGS,
+  scaleAdvice,
 };
 
 export { planGrblJob as planJob } from "./grbl-job.js";

@@ -7,6 +7,7 @@ import {
   MOTOR_ACCEL,
   TRAVEL_TABLE,
 } from "../../settings/motion.js";
+import { STREAM_TABLE } from "../../settings/machine.js";
 import { DROP_RATE, LIFT_RATE, OVERLAP_TABLE } from "../../settings/pen.js";
 
 export const UNUSED_SETTINGS: Readonly<Record<string, string>> = {
@@ -28,4 +29,7 @@ export const UNUSED_SETTINGS: Readonly<Record<string, string>> = {
   "pen.liftPctPerS": LIFT_RATE.label,
   "pen.dropPctPerS": DROP_RATE.label,
   "pen.overlap": OVERLAP_TABLE.overlap.label,
+  "pen.contactPct": OVERLAP_TABLE.contactPct.label,
+  "pen.fullHeightMm": OVERLAP_TABLE.fullHeightMm.label,
+  sendAheadMs: STREAM_TABLE.sendAheadMs.label,
 };

@@ -31,6 +31,11 @@ describe("a Grbl on a port that is not chosen yet", () => {
   const plotter = async (): Promise<Plotter> =>
     snapshotSchema.parse(await (await fetch(`${test.server.url}/api/v1/state`)).json()).plotters[0];
 
+  const bottomOf = async (label: string): Promise<number> => {
+    const { y, height } = (await test.page.getByLabel(label).boundingBox())!;
+    return y + height;
+  };
+
   it("is offered beside the ports where nothing answers", async () => {
     await find().click();
     const ports = panel().getByRole("list", { name: "What is on the ports" });
@@ -64,9 +69,17 @@ describe("a Grbl on a port that is not chosen yet", () => {
   it("is not offered what its controller does not do, and the console's examples are its own", async () => {
     const { page } = test;
     await panelOf("Lifting the pen").click();
-    await page.getByLabel("Extra wait after lifting").waitFor();
+    // In one row, although their labels have different lengths.
+    const [lift, drop] = [
+      await bottomOf("Extra wait after lifting"),
+      await bottomOf("Extra wait after lowering"),
+    ];
+    expect(lift).toBe(drop);
     expect(await page.getByText("Move while the pen lifts").count()).toBe(0);
     expect(await page.getByText("Lower the pen gently").count()).toBe(0);
+    await page.getByRole("button", { name: "Hide these steps" }).click();
+    await page.getByRole("button", { name: "Draw a test line" }).waitFor();
+    expect(await page.getByText("Tip touches at").count()).toBe(0);
     await page.getByRole("button", { name: "Console" }).click();
     const dialog = page.getByRole("dialog", { name: "Console of Plotter" });
     await dialog.getByPlaceholder("$$", { exact: true }).waitFor();
@@ -76,6 +89,9 @@ describe("a Grbl on a port that is not chosen yet", () => {
     await page.getByText("This plotter’s controller plans the motion by itself").waitFor();
     await page.getByRole("group", { name: "Pen down" }).getByLabel("Speed").first().waitFor();
     expect(await page.getByLabel("Acceleration").count()).toBe(0);
+    await page.getByRole("group", { name: "Limits of one axis" }).getByText("Speed along x").waitFor();
+    expect(await page.getByText("Acceleration along x").count()).toBe(0);
+    expect(await page.getByText("Motion sent ahead").count()).toBe(0);
     expect(test.complaints).toEqual([]);
   });
 });

@@ -3,12 +3,14 @@ import { describe, expect, it } from "vitest";
 import { machineNamed } from "../../../src/internal.js";
 import { MACHINES, machineById, type MachineProfile } from "../../../src/index.js";
 import {
+  controllerOf,
   DIRECTIONS,
   findMachine,
   machineOf,
   machineTurned,
   motor1FromXy,
   motor2FromXy,
+  scaleMeasured,
   stepsPerMmMeasured,
   xFromMotors,
   yFromMotors,
@@ -84,6 +86,21 @@ describe("the steps for one mm", () => {
     ] as const) {
       expect(() => stepsPerMmMeasured(machine, 50, x, y)).toThrow(/measure it again/);
     }
+  });
+});
+
+describe("the scale of a machine whose controller counts the steps", () => {
+  it("is that of its own axes, which may be exchanged", () => {
+    expect(scaleMeasured(machineById("grbl-servo"), 100, 90, 100)).toEqual([100 / 90, 1]);
+    expect(scaleMeasured(machineById("idraw-h-a4"), 100, 90, 100)).toEqual([1, 100 / 90]);
+    expect(() => scaleMeasured(machineById("grbl-servo"), 100, 20, 100)).toThrow(/measure it again/);
+  });
+
+  it("is told as what to change in a Grbl, and not for a board that is told steps", () => {
+    const { scaleAdvice } = controllerOf(machineById("grbl-servo"));
+    expect(scaleAdvice?.(1.25, 1)).toContain("Multiply $100 by 1.2500, and send");
+    expect(scaleAdvice?.(0.98, 1.01)).toContain("Multiply $100 by 0.9800 and $101 by 1.0100, and send");
+    expect(controllerOf(machineById("axidraw-v3")).scaleAdvice).toBeUndefined();
   });
 });
 

@@ -27,12 +27,11 @@ describe("the settings that the search finds", () => {
       "Full lift for travels from",
       "Lower the pen gently",
       "Lowering speed",
+      "Motion sent ahead",
       "Move while the pen lifts",
       "Quality",
       "Reduce ringing",
       "Softness",
-      "Speed along x",
-      "Speed along y",
       "Tip touches at",
       "Tolerance",
     ]);

@@ -2,6 +2,7 @@ import { useMemo, type ReactNode } from "react";
 import { OVERLAP_TABLE, PEN_TABLE } from "../../../src/internal.js";
 import { activeJob, currentPlotter, otherOperator, type PageState } from "../../state/store.js";
 import { useActions, usePageState } from "../../state/use-store.js";
+import { useIsUsed } from "../../state/used-settings.js";
 import { Button } from "../../ui/button.js";
 import { SettingField } from "../../ui/fields/setting-field.js";
 import { usePenChange } from "../../ui/use-change.js";
@@ -34,6 +35,7 @@ export const Heights = ({ hasContact, onTry }: HeightsProps) => {
   const isFollowing = usePageState(mayFollow);
   // If another browser is the operator, storing the heights asks to take over first.
   const isOthers = usePageState((state) => otherOperator(state) !== null);
+  const isContactUsed = useIsUsed("pen.contactPct");
   const { movePen } = useActions();
   const change = usePenChange();
   const follow = useMemo(
@@ -71,7 +73,7 @@ export const Heights = ({ hasContact, onTry }: HeightsProps) => {
     <div className="pen-heights">
       {row("upPct")}
       {row("downPct")}
-      {hasContact && pen.overlap !== "off" && (
+      {hasContact && isContactUsed && pen.overlap !== "off" && (
         <>
           <div className="field-with-button">
             <SettingField

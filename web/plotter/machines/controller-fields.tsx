@@ -18,44 +18,74 @@ const startOf = (row: FieldRow): number | string =>
   row.kind === "number" && typeof row.default === "number" ? row.default : "";
 
 /** The fields of a controller that has no form of its own, from its description. */
-export const ControllerFields = ({ profile, onChange }: Props) => {
-  const { fields, choice } = controllerOf(profile);
-  const { controller } = profile;
-  const change = (part: Readonly<Record<string, unknown>>): void =>
-    onChange({ ...profile, controller: { ...controller, ...part } });
-  const options = choice?.options ?? [];
-  const chosen = options.findIndex((option) => isGiven(controller[option.fields[0]]));
-  const excluded = new Set(options.flatMap((option, i) => (i === chosen ? [] : option.fields)));
-  const own = new Set(options[chosen]?.fields);
-  const rows = Object.entries(fields).filter(([key]) => own.has(key) || !excluded.has(key));
-  const field = ([key, row]: readonly [string, FieldRow]) => (
-    <Field
-      key={key}
-      row={row}
-      isChosen={own.has(key)}
-      value={controller[key]}
-      onChange={(value) => change({ [key]: value })}
-    />
+export const ControllerFields = (props: Props) => {
+  const { fields } = controllerOf(props.profile);
+  const { choosable } = choiceOf(props.profile);
+  const rows = Object.entries(fields).filter(([key]) => !choosable.has(key));
+  const field = ([name, row]: readonly [string, FieldRow]) => (
+    <ProfileField key={name} {...props} name={name} row={row} isChosen={false} />
   );
   return (
     <fieldset className="subgroup">
       <legend>{words.controller}</legend>
       {rows.filter(([, row]) => row.isOptional !== true).map(field)}
-      {choice && (
-        <Segments
-          label={choice.label}
-          value={String(chosen)}
-          options={options.map(({ label }, i) => ({ value: String(i), label }))}
-          onChange={(at) => {
-            const none = [...own, ...excluded].map((key) => [key, null] as const);
-            const begun = options[Number(at)].fields.map((key) => [key, startOf(fields[key])] as const);
-            change(Object.fromEntries([...none, ...begun]));
-          }}
-        />
-      )}
-      {rows.filter(([key]) => own.has(key)).map(field)}
-      {rows.filter(([key, row]) => row.isOptional === true && !own.has(key)).map(field)}
+      <ChoiceFields {...props} />
+      {rows.filter(([, row]) => row.isOptional === true).map(field)}
     </fieldset>
+  );
+};
+
+/** The option that a profile has, and the fields of any option. */
+const choiceOf = (profile: MachineProfile) => {
+  const options = controllerOf(profile).choice?.options ?? [];
+  const chosen = options.findIndex((option) => isGiven(profile.controller[option.fields[0]]));
+  return { chosen, choosable: new Set(options.flatMap((option) => option.fields)) };
+};
+
+/** One of the groups of fields that exclude each other, such as the ways to lift the pen. */
+export const ChoiceFields = (props: Props) => {
+  const { profile, onChange } = props;
+  const { fields, choice } = controllerOf(profile);
+  if (!choice) return null;
+  const { chosen, choosable } = choiceOf(profile);
+  const choose = (at: string): void => {
+    const none = [...choosable].map((key) => [key, null] as const);
+    const begun = choice.options[Number(at)].fields.map((key) => [key, startOf(fields[key])] as const);
+    onChange({
+      ...profile,
+      controller: { ...profile.controller, ...Object.fromEntries([...none, ...begun]) },
+    });
+  };
+  return (
+    <>
+      <Segments
+        label={choice.label}
+        value={String(chosen)}
+        options={choice.options.map(({ label }, i) => ({ value: String(i), label }))}
+        onChange={choose}
+      />
+      {choice.options[chosen]?.fields.map((name) => (
+        <ProfileField key={name} {...props} name={name} row={fields[name]} isChosen />
+      ))}
+    </>
+  );
+};
+
+interface ProfileFieldProps extends Props {
+  readonly name: string;
+  readonly row: FieldRow;
+  readonly isChosen: boolean;
+}
+
+const ProfileField = ({ profile, onChange, name, row, isChosen }: ProfileFieldProps) => {
+  const { controller } = profile;
+  return (
+    <Field
+      row={row}
+      isChosen={isChosen}
+      value={controller[name]}
+      onChange={(value) => onChange({ ...profile, controller: { ...controller, [name]: value } })}
+    />
   );
 };
 

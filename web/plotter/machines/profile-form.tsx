@@ -1,5 +1,5 @@
 import type { MachineProfile } from "../../../src/index.js";
-import type { EbbController } from "../../../src/internal.js";
+import { controllerOf, type EbbController } from "../../../src/internal.js";
 import { profileText as words } from "./text.js";
 import { Segments, Select, Switch } from "../../ui/fields/choice.js";
 import { MmPair, NumberField } from "../../ui/fields/number-field.js";
@@ -58,15 +58,17 @@ const MotorFields = ({ profile, onChange }: ProfileFormProps) => {
   return (
     <fieldset className="subgroup">
       <legend>{words.motors}</legend>
-      <Segments
-        label={words.wiring}
-        value={profile.motors}
-        options={[
-          { value: "mixed", label: words.mixed },
-          { value: "direct", label: words.direct },
-        ]}
-        onChange={(motors) => change({ motors })}
-      />
+      {!controllerOf(profile).scaleAdvice && (
+        <Segments
+          label={words.wiring}
+          value={profile.motors}
+          options={[
+            { value: "mixed", label: words.mixed },
+            { value: "direct", label: words.direct },
+          ]}
+          onChange={(motors) => change({ motors })}
+        />
+      )}
       <NumberField
         label={words.stepsPerMm}
         value={profile.stepsPerMm}

@@ -20,6 +20,8 @@ export const wizardText = {
   whichWay: "Which way did it go?",
   directions: { right: "Right", left: "Left", down: "Nearer to me", up: "Away from me" },
   slanted: "Diagonally, between two of these",
+  slantedByController:
+    "Diagonally? Then its controller is not built for these belts: a CoreXY needs firmware for CoreXY, others must not have it.",
   notAtAll: "Not at all? Then a motor’s cable is loose or the motors’ power is off. Fix that and move again.",
   checkHint: "Both directions should be right now. Check them.",
   moveRight: "Right",
@@ -35,8 +37,10 @@ export const wizardText = {
   measuredX: "Measured width",
   measuredY: "Measured height",
   stepsPerMm: (steps: string) => `That makes ${steps} steps per mm.`,
+  rightSize: "That is the right size.",
   take: "Use this",
-  penInProfile: "How this plotter lifts its pen is in its profile: change it afterwards under Machines…",
+  liftHint: "Say how the pen is lifted, then try it: it goes down and up again.",
+  tryPen: "Lower and lift the pen",
   servoHint:
     "Drag until the pen is well clear of the paper at its highest, and would press a little at its lowest. The heights for plots are set between the two.",
   highest: "Highest",

@@ -1,6 +1,6 @@
 import { useState } from "react";
 import type { MachineProfile } from "../../../src/index.js";
-import { DIRECTIONS, machineTurned, type Direction } from "../../../src/internal.js";
+import { controllerOf, DIRECTIONS, machineTurned, type Direction } from "../../../src/internal.js";
 import { useActions } from "../../state/use-store.js";
 import { wizardText as words } from "./text.js";
 import type { StepProps } from "./wizard-step.js";
@@ -98,7 +98,7 @@ export const DirectionStep = ({ profile, onNext }: StepProps) => {
       >
         {asked === "x" ? words.moveFirst : words.moveSecond}
       </Button>
-      <Answers onAnswer={answer} onSlanted={slanted} />
+      <Answers onAnswer={answer} onSlanted={controllerOf(profile).scaleAdvice ? null : slanted} />
     </>
   );
 };
@@ -132,7 +132,8 @@ const withOtherMotors = (profile: MachineProfile): MachineProfile => ({
 
 interface AnswersProps {
   onAnswer(went: Direction): void;
-  onSlanted(): void;
+  /** Null: the controller mixes the motors by itself. */
+  readonly onSlanted: (() => void) | null;
 }
 
 const Answers = ({ onAnswer, onSlanted }: AnswersProps) => (
@@ -145,9 +146,13 @@ const Answers = ({ onAnswer, onSlanted }: AnswersProps) => (
         </Button>
       ))}
     </div>
-    <Button kind="link" onClick={onSlanted}>
-      {words.slanted}
-    </Button>
+    {onSlanted ? (
+      <Button kind="link" onClick={onSlanted}>
+        {words.slanted}
+      </Button>
+    ) : (
+      <p className="note">{words.slantedByController}</p>
+    )}
     <p className="note">{words.notAtAll}</p>
   </fieldset>
 );

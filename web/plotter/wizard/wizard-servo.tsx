@@ -1,6 +1,7 @@
 import { useId, useMemo, useState } from "react";
 import { useActions } from "../../state/use-store.js";
-import { isEbbMachine, withController, type EbbProfile } from "../machines/profile.js";
+import { ChoiceFields } from "../machines/controller-fields.js";
+import { isEbbMachine, problemsOf, withController, type EbbProfile } from "../machines/profile.js";
 import { wizardText as words } from "./text.js";
 import { ServoPin } from "../machines/profile-form.js";
 import { servoFollower } from "../hand/servo-follow.js";
@@ -10,18 +11,39 @@ import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 /** In 1/12 µs: servos accept pulses of about 0.4 to 2.6 ms. */
 const RANGE = { min: 5_000, max: 31_000, step: 100 } as const;
 
-/** Only an EiBotBoard's servo is set up here. */
 export const ServoStep = ({ profile, ...props }: StepProps) =>
   isEbbMachine(profile) ? (
     <EbbServoStep profile={profile} {...props} />
   ) : (
+    <PenLiftStep profile={profile} {...props} />
+  );
+
+/** The fields of the controller's profile that lift the pen. */
+const PenLiftStep = ({ profile, onNext }: StepProps) => {
+  const { moveByHand } = useActions();
+  const [draft, setDraft] = useState(profile);
+  const problems = problemsOf(draft);
+  return (
     <>
-      <p>{words.penInProfile}</p>
-      <Button kind="primary" onClick={() => props.onNext(profile)}>
-        {words.next}
+      <p>{words.liftHint}</p>
+      <ChoiceFields profile={draft} onChange={setDraft} />
+      {problems.length > 0 && (
+        <p className="note note-error" role="alert">
+          {problems.join("; ")}
+        </p>
+      )}
+      <Button disabled={problems.length > 0} onClick={() => void moveByHand({ kind: "cycle-pen" }, draft)}>
+        {words.tryPen}
       </Button>
+      <TakeOrSkip
+        label={words.next}
+        isOff={problems.length > 0}
+        onTake={() => onNext(draft)}
+        onSkip={() => onNext(profile)}
+      />
     </>
   );
+};
 
 /** The pen follows two sliders, which set the ends of the servo's range. */
 const EbbServoStep = ({ profile, onNext }: StepProps & { readonly profile: EbbProfile }) => {

@@ -1,6 +1,6 @@
 import { useState } from "react";
 import type { MachineProfile } from "../../../src/index.js";
-import { stepsPerMmMeasured } from "../../../src/internal.js";
+import { controllerOf, scaleMeasured, stepsPerMmMeasured } from "../../../src/internal.js";
 import { useActions } from "../../state/use-store.js";
 import { wizardText as words } from "./text.js";
 import { Button } from "../../ui/button.js";
@@ -10,12 +10,12 @@ import { TakeOrSkip, type StepProps } from "./wizard-step.js";
 
 const SQUARE_MM = 100;
 
-/** A square is drawn and measured with a ruler. Its real size gives the steps per mm. */
+/** A square is drawn and measured with a ruler. Its real size gives the steps per mm, or what to change in the controller. */
 export const SquareStep = ({ profile, onNext }: StepProps) => {
   const { moveByHand } = useActions();
   const sizeMm = Math.min(SQUARE_MM, Math.floor(Math.min(profile.widthMm, profile.heightMm) / 2));
   const [[xMm, yMm], setSides] = useState<readonly [number, number]>([sizeMm, sizeMm]);
-  const measured = measuredOr(profile, sizeMm, xMm, yMm);
+  const { note, isFault, corrected } = measuredOr(profile, sizeMm, xMm, yMm);
   return (
     <>
       <p>{words.squareHint(sizeMm)}</p>
@@ -29,30 +29,48 @@ export const SquareStep = ({ profile, onNext }: StepProps) => {
         step={0.5}
         onChange={(x, y) => setSides([x, y])}
       />
-      {typeof measured === "string" ? (
-        <p className="note note-error" role="alert">
-          {measured}
-        </p>
+      <p className={isFault ? "note note-error" : "note"} role={isFault ? "alert" : "status"}>
+        {note}
+      </p>
+      {corrected === null ? (
+        <Button kind="primary" disabled={isFault} onClick={() => onNext(profile)}>
+          {words.next}
+        </Button>
       ) : (
-        <p className="note">{words.stepsPerMm(formatNumber(measured, 3))}</p>
+        <TakeOrSkip
+          label={words.take}
+          isOff={isFault}
+          onTake={() => onNext(corrected)}
+          onSkip={() => onNext(profile)}
+        />
       )}
-      <TakeOrSkip
-        label={words.take}
-        isOff={typeof measured === "string"}
-        onTake={() => {
-          if (typeof measured === "number") onNext({ ...profile, stepsPerMm: Number(measured.toFixed(4)) });
-        }}
-        onSkip={() => onNext(profile)}
-      />
     </>
   );
 };
 
-/** Steps per mm, or what is wrong with the measurement. */
-const measuredOr = (profile: MachineProfile, sizeMm: number, xMm: number, yMm: number): number | string => {
+interface SquareResult {
+  readonly note: string;
+  /** The measurement can't be right. */
+  readonly isFault: boolean;
+  /** Null: the controller has the scale, not the profile. */
+  readonly corrected: MachineProfile | null;
+}
+
+/** What follows from the measurement. */
+const measuredOr = (profile: MachineProfile, sizeMm: number, xMm: number, yMm: number): SquareResult => {
+  const { scaleAdvice } = controllerOf(profile);
   try {
-    return stepsPerMmMeasured(profile, sizeMm, xMm, yMm);
+    if (scaleAdvice) {
+      const [first, second] = scaleMeasured(profile, sizeMm, xMm, yMm);
+      const isRight = first === 1 && second === 1;
+      const note = isRight ? words.rightSize : scaleAdvice(first, second);
+      return { note, isFault: false, corrected: null };
+    }
+    const stepsPerMm = Number(stepsPerMmMeasured(profile, sizeMm, xMm, yMm).toFixed(4));
+    const note = words.stepsPerMm(formatNumber(stepsPerMm, 3));
+    return { note, isFault: false, corrected: { ...profile, stepsPerMm } };
   } catch (error) {
-    return error instanceof Error ? error.message : String(error);
+    const note = error instanceof Error ? error.message : String(error);
+    return { note, isFault: true, corrected: scaleAdvice ? null : profile };
   }
 };

@@ -7,7 +7,7 @@ import {
   planSvg,
   type SvgSettings,
 } from "../../../../src/index.js";
-import { unusedSettings } from "../../../../src/internal.js";
+import { unusedSettings, usesSetting } from "../../../../src/internal.js";
 import { GRBL } from "../../../support/machines/machine.js";
 
 const SVG =
@@ -24,7 +24,7 @@ const CHANGED = {
     accelYMmPerS2: 300,
     layers: { ink: { speedMmPerS: 20, cornerMm: 0.1 } },
   },
-  pen: { ...DEFAULT_PEN, overlap: "fast", liftPctPerS: 100 },
+  pen: { ...DEFAULT_PEN, overlap: "fast", contactPct: 70, fullHeightMm: 5, liftPctPerS: 100 },
 } satisfies SvgSettings;
 const START = `${GRBL.name} does not use these settings, because its controller plans by itself: `;
 
@@ -38,7 +38,7 @@ describe("a plan for Grbl", () => {
   it("names all other settings that it does not use, and draws the same", async () => {
     const { warnings, ...job } = await planned(CHANGED);
     expect(warnings).toEqual([
-      `${START}Corners, Acceleration (pen down), Corner rounding of a layer, Acceleration along y, Lifting speed, Move while the pen lifts.`,
+      `${START}Corners, Acceleration (pen down), Corner rounding of a layer, Acceleration along y, Lifting speed, Move while the pen lifts, Tip touches at, Full lift for travels from.`,
     ]);
     expect(job.lines()).toEqual((await planned({})).lines());
   });
@@ -47,6 +47,17 @@ describe("a plan for Grbl", () => {
     expect((await planned({})).warnings).toEqual([]);
     const draw = { ...DEFAULT_MOTION.draw, speedMmPerS: 20 };
     expect((await planned({ motion: { ...DEFAULT_MOTION, draw } })).warnings).toEqual([]);
+  });
+
+  it.each(["speedXMmPerS", "speedYMmPerS"])("uses %s, a limit of one axis", async (key) => {
+    const { warnings, ...job } = await planned({ motion: { ...DEFAULT_MOTION, [key]: 10 } });
+    expect(warnings).toEqual([]);
+    expect(job.lines()).not.toEqual((await planned({})).lines());
+  });
+
+  it("does not use how far motion is sent ahead", () => {
+    expect(usesSetting(GRBL, "sendAheadMs")).toBe(false);
+    expect(usesSetting(machineById("axidraw-v3"), "sendAheadMs")).toBe(true);
   });
 
   it("has settings that an AxiDraw uses without a warning", () => {
