@@ -44,6 +44,8 @@ export interface Face {
   readonly doorResuming: number;
   /** It knows G2 and G3. */
   readonly takesArcs: boolean;
+  /** What it leaves out of a line. */
+  readonly comments: RegExp;
   /** The answer to `v`, which has no "ok"; null: it is refused. */
   readonly ownVersion: string | null;
 }
@@ -65,6 +67,7 @@ const ARDUINO: Face = {
   reportsHoming: false,
   doorResuming: 3,
   takesArcs: true,
+  comments: /\(.*?\)|;.*/g,
   ownVersion: null,
 };
 
@@ -108,6 +111,7 @@ const TABLE: Readonly<Record<FaceName, Face>> = {
     rxBytes: OLD_RX_BYTES,
     modes: (words) => `[${words}]`,
     report: oldReport,
+    comments: /\(.*?\)/g,
     error: (code) => `error: ${OLD_ERRORS[code] ?? `Invalid gcode ID:${code}`}`,
     alarm: (code) => `ALARM: ${OLD_ALARMS[code] ?? "Homing fail"}`,
     message: (words) => `[${words}]`,

@@ -17,6 +17,8 @@ export interface GcodeTarget {
   signalChanged(): void;
   /** The line is answered after this time. `then` does what is left of it. */
   wait(seconds: number, then: () => void): void;
+  /** M0: it stands as in a hold, and the line is answered when it is resumed. */
+  waitForUser(): void;
   offsetChanged(): void;
   /** It stops with ALARM:2. */
   softLimit(): void;
@@ -41,6 +43,7 @@ export class GcodeLines {
     if (typeof block === "number") return block;
     if (this.board.isChecking()) return 0;
     const { modes, words } = block;
+    if (modes.includes("M0")) return this.pause();
     lasting.takeTool(words);
     const isChange = lasting.takeSpindle(block, motion.isEmpty);
     if (isChange === null) return null;
@@ -64,6 +67,14 @@ export class GcodeLines {
     rest.delete("P");
     if (seconds <= 0) return this.moves.take(modes, rest);
     this.board.wait(dwellS(seconds), () => this.moves.takeAtOnce(modes, rest));
+    return null;
+  }
+
+  private pause(): null {
+    const { motion } = this.board;
+    if (!motion.isEmpty) return null;
+    motion.mayRest();
+    this.board.waitForUser();
     return null;
   }
 

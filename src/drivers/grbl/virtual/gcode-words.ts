@@ -34,6 +34,7 @@ const GROUPS = [
   ["G94"],
   ["G4", "G10"],
   ["M3", "M4", "M5"],
+  ["M0"],
 ];
 
 export interface GcodeWords {

@@ -105,6 +105,10 @@ export class VirtualGrbl implements VirtualMachine {
       isChecking: () => states.isChecking,
       signalChanged: () => this.pen.signal(modes.signal, this.nowS),
       wait: (seconds, then) => this.answerAfter(seconds, then),
+      waitForUser: () => {
+        this.answerAfter(0, () => undefined);
+        this.holds.hold();
+      },
       offsetChanged: () => {
         settings.offsetDue = 0;
         this.ink.begin(false);
@@ -256,8 +260,8 @@ export class VirtualGrbl implements VirtualMachine {
       this.performOther();
       const received = this.wait.isRunning || this.states.isAsleep ? null : this.rx.line;
       if (received === null) break;
-      const line = received.replace(/\s|\(.*?\)|;.*/g, "");
-      const { ownVersion } = this.settings.face;
+      const { ownVersion, comments } = this.settings.face;
+      const line = received.replace(comments, "").replace(/\s/g, "");
       if (line.toUpperCase() === "V" && ownVersion !== null) {
         this.rx.dropLine();
         this.reply(ownVersion);
@@ -271,7 +275,7 @@ export class VirtualGrbl implements VirtualMachine {
     }
     if (!this.motion.isEmpty && !this.motion.isMoving && !this.states.isHeld) {
       this.startDueS ??= this.nowS + START_S;
-      const waitsForMotion = /^(G4|M[345])/.test(this.rx.line ?? "");
+      const waitsForMotion = /^(G4|M[0345])/.test(this.rx.line ?? "");
       if (this.motion.isFull || waitsForMotion) this.startDueS = this.nowS;
     }
     this.schedule();

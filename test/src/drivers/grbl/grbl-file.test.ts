@@ -10,7 +10,11 @@ import {
   type StrokeSet,
 } from "../../../../src/index.js";
 import { NO_PENS, penStopsOf, type PenSetup, type StrokeLayer } from "../../../../src/internal.js";
+import { FACES } from "../../../../src/drivers/grbl/virtual/faces.js";
+import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";
+import { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { GRBL } from "../../../support/machines/machine.js";
+import { machineWith } from "../../../support/plots/grbl-plotter.js";
 
 const STROKES: StrokeSet = {
   xy: Float64Array.of(10, 10, 20, 10, 10, 20, 20, 20, 10, 30, 20, 30),
@@ -255,4 +259,47 @@ it("has only lines that each Grbl takes, whatever layers and pens are called", (
   expect(lines.filter((line) => /[()]/.test(line) && !/^\([^()]+\)$/.test(line))).toEqual([]);
   expect(lines[0]).toMatch(/: about 1 min\. Begins at home\.\)$/);
   expect(lines).toContainEqual(expect.stringMatching(/^\(Layer 7.*: pen down at 30 %, up at 60 %\)$/));
+});
+
+/** Sends the lines as the simplest sender does: each after the answer to the one before it. Returns the answers and the lines at which its user pressed resume. */
+async function sendTo(board: VirtualGrbl, world: ManualClock, lines: readonly string[]) {
+  const line = board.transport();
+  const answers: string[] = [];
+  const resumed: string[] = [];
+  line.onData((bytes) => {
+    const text = new TextDecoder().decode(bytes);
+    answers.push(...text.split("\r\n").filter((one) => /^(ok|error)/.test(one)));
+  });
+  for (const [i, text] of lines.entries()) {
+    await line.write(new TextEncoder().encode(`${text}\n`));
+    for (let tries = 0; answers.length <= i && tries < 600; tries++) {
+      if (board.state().state === "Hold:0") {
+        resumed.push(text);
+        await line.write(new TextEncoder().encode("~"));
+      }
+      await world.advance(0.1);
+    }
+  }
+  return { answers, resumed };
+}
+
+it.each(FACES)("is taken by a %s from any sender, and draws all of it", async (face) => {
+  const machine = machineWith({ face });
+  const world = new ManualClock();
+  const board = new VirtualGrbl({ clock: world, speed: 1, machine }, { face });
+  const lines = planJob({ strokes: STROKES }, PENS, machine, { liftFirst: true }).lines();
+  const { answers, resumed } = await sendTo(board, world, lines);
+  expect(answers).toEqual(lines.map(() => "ok"));
+  expect(resumed).toEqual(["M0", "M0"]);
+  const drawn = board.drawn().flatMap(({ penDown, xy }) => (penDown && xy.length > 2 ? [[...xy]] : []));
+  expect(drawn).toEqual([
+    [10, 10, 20, 10],
+    [10, 20, 20, 20],
+    [10, 30, 20, 30],
+  ]);
+  expect(board.state()).toMatchObject({ state: "Idle", penUp: true, xMm: 0, yMm: 0 });
+  // What other programs write is refused by version 0.9.
+  const { answers: toOther } = await sendTo(board, world, ["; a comment"]);
+  expect(toOther).toEqual([face === "0.9" ? "error: Invalid gcode ID:1" : "ok"]);
+  board.close();
 });
