@@ -161,9 +161,9 @@ export { maxOffDrawingMm, maxOffLineMm, reportedPosition } from "./position/repo
 export type { Springs } from "./machines/profile.js";
 export { findMachine, machineOf, type MachineId } from "./machines/profiles.js";
 export { freeId, measuredMachine } from "./machines/own-machines.js";
+export { machineNamed } from "./machines/named.js";
 export {
   DIRECTIONS,
-  machineNamed,
   machineTurned,
   scaleMeasured,
   stepsPerMmMeasured,

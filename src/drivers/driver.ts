@@ -49,10 +49,10 @@ export interface ControllerDescription {
    */
   readonly unusedSettings?: Readonly<Record<string, string>>;
   /**
-   * For a controller that is told where to go in mm: it mixes the motors and counts steps by itself. What to change in it,
-   * in words, so that what it draws becomes that many times as large along its two axes. Left out: it is told steps.
+   * For a controller that is told where to go in mm: it mixes the motors and counts steps by itself. Its own settings of
+   * the steps per mm of its two axes. Left out: it is told steps.
    */
-  readonly scaleAdvice?: (first: number, second: number) => string;
+  readonly scaleSettings?: readonly [first: string, second: string];
 }
 
 /** One of several groups of fields that a profile has, such as the ways to lift a pen. */

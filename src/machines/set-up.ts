@@ -7,7 +7,6 @@
  * permutation too, so its inverse is its transpose.
  */
 import { PlotwrightError } from "../errors.js";
-import { MACHINES } from "./profiles.js";
 import { uFromXy, vFromXy } from "./motors.js";
 import type { MachineProfile } from "./profile.js";
 
@@ -93,14 +92,4 @@ function checkMeasured(drawnMm: number, measuredXMm: number, measuredYMm: number
       `A ${drawnMm} mm square cannot have come out as ${measuredXMm} × ${measuredYMm} mm: measure it again, in mm.`,
     );
   }
-}
-
-const lettersOf = (text: string): string => text.toLowerCase().replace(/[^a-z0-9]/g, "");
-
-/** The built-in machine that a board's own name tells; null: it tells none. "My NextDraw 8511" is a NextDraw 8511. */
-export function machineNamed(boardName: string): MachineProfile | null {
-  const letters = lettersOf(boardName);
-  const named = MACHINES.filter(({ name }) => letters.includes(lettersOf(name)));
-  // "AxiDraw V3/A3" also contains "AxiDraw V3".
-  return named.sort((a, b) => b.name.length - a.name.length)[0] ?? null;
 }

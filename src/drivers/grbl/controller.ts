@@ -5,14 +5,6 @@ import { findsHome, GRBL_FIELDS } from "./model/grbl-controller.js";
 import { LIFT_CHOICE, liftFault } from "./model/pen-lift.js";
 import { UNUSED_SETTINGS } from "./unused-settings.js";
 
-/** `$100` and `$101` are its steps per mm. */
-function scaleAdvice(...factors: readonly [first: number, second: number]): string {
-  const changed = factors.flatMap((factor, axis) =>
-    factor === 1 ? [] : [`$${100 + axis} by ${factor.toFixed(4)}`],
-  );
-  return `The Grbl counts its steps by itself. Multiply ${changed.join(" and ")}, and send that in the console, such as $100=81.6.`;
-}
-
 export const description: ControllerDescription = {
   fields: GRBL_FIELDS,
   choice: LIFT_CHOICE,
@@ -42,7 +34,7 @@ export const description: ControllerDescription = {
   },
   consoleExamples: ["$$", "$#", "$I"],
   unusedSettings: UNUSED_SETTINGS,
-  scaleAdvice,
+  scaleSettings: ["$100", "$101"],
 };
 
 export { planGrblJob as planJob } from "./grbl-job.js";

@@ -96,11 +96,9 @@ describe("the scale of a machine whose controller counts the steps", () => {
     expect(() => scaleMeasured(machineById("grbl-servo"), 100, 20, 100)).toThrow(/measure it again/);
   });
 
-  it("is told as what to change in a Grbl, and not for a board that is told steps", () => {
-    const { scaleAdvice } = controllerOf(machineById("grbl-servo"));
-    expect(scaleAdvice?.(1.25, 1)).toContain("Multiply $100 by 1.2500, and send");
-    expect(scaleAdvice?.(0.98, 1.01)).toContain("Multiply $100 by 0.9800 and $101 by 1.0100, and send");
-    expect(controllerOf(machineById("axidraw-v3")).scaleAdvice).toBeUndefined();
+  it("is a setting of a Grbl for each axis, and none of a board that is told steps", () => {
+    expect(controllerOf(machineById("grbl-servo")).scaleSettings).toEqual(["$100", "$101"]);
+    expect(controllerOf(machineById("axidraw-v3")).scaleSettings).toBeUndefined();
   });
 });
 

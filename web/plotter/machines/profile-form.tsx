@@ -58,7 +58,7 @@ const MotorFields = ({ profile, onChange }: ProfileFormProps) => {
   return (
     <fieldset className="subgroup">
       <legend>{words.motors}</legend>
-      {!controllerOf(profile).scaleAdvice && (
+      {!controllerOf(profile).scaleSettings && (
         <Segments
           label={words.wiring}
           value={profile.motors}

@@ -37,6 +37,9 @@ export const wizardText = {
   measuredX: "Measured width",
   measuredY: "Measured height",
   stepsPerMm: (steps: string) => `That makes ${steps} steps per mm.`,
+  multiply: (setting: string, factor: string) => `${setting} by ${factor}`,
+  scale: (changes: readonly string[], example: string) =>
+    `The controller counts its steps by itself. Multiply ${changes.join(" and ")}, and send that in the console, such as ${example}=81.6.`,
   rightSize: "That is the right size.",
   take: "Use this",
   liftHint: "Say how the pen is lifted, then try it: it goes down and up again.",

@@ -98,7 +98,7 @@ export const DirectionStep = ({ profile, onNext }: StepProps) => {
       >
         {asked === "x" ? words.moveFirst : words.moveSecond}
       </Button>
-      <Answers onAnswer={answer} onSlanted={controllerOf(profile).scaleAdvice ? null : slanted} />
+      <Answers onAnswer={answer} onSlanted={controllerOf(profile).scaleSettings ? null : slanted} />
     </>
   );
 };

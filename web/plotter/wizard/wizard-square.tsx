@@ -58,12 +58,14 @@ interface SquareResult {
 
 /** What follows from the measurement. */
 const measuredOr = (profile: MachineProfile, sizeMm: number, xMm: number, yMm: number): SquareResult => {
-  const { scaleAdvice } = controllerOf(profile);
+  const { scaleSettings } = controllerOf(profile);
   try {
-    if (scaleAdvice) {
-      const [first, second] = scaleMeasured(profile, sizeMm, xMm, yMm);
-      const isRight = first === 1 && second === 1;
-      const note = isRight ? words.rightSize : scaleAdvice(first, second);
+    if (scaleSettings) {
+      const factors = scaleMeasured(profile, sizeMm, xMm, yMm);
+      const wrong = scaleSettings.flatMap((setting, axis) =>
+        factors[axis] === 1 ? [] : [words.multiply(setting, factors[axis].toFixed(4))],
+      );
+      const note = wrong.length === 0 ? words.rightSize : words.scale(wrong, scaleSettings[0]);
       return { note, isFault: false, corrected: null };
     }
     const stepsPerMm = Number(stepsPerMmMeasured(profile, sizeMm, xMm, yMm).toFixed(4));
@@ -71,6 +73,6 @@ const measuredOr = (profile: MachineProfile, sizeMm: number, xMm: number, yMm: n
     return { note, isFault: false, corrected: { ...profile, stepsPerMm } };
   } catch (error) {
     const note = error instanceof Error ? error.message : String(error);
-    return { note, isFault: true, corrected: scaleAdvice ? null : profile };
+    return { note, isFault: true, corrected: scaleSettings ? null : profile };
   }
 };
