@@ -155,7 +155,7 @@ export { penError, type PenError } from "./plan/simulate/pen-error.js";
 export { swingPen, type PenPoint } from "./plan/simulate/spring-pen.js";
 export { comeToRest } from "./plan/rest/come-to-rest.js";
 export { movedPosition, pointAt } from "./position/on-drawing.js";
-export { maxOffDrawingMm, maxOffLineMm, reportedPosition } from "./position/reported.js";
+export { isBetween, maxOffDrawingMm, maxOffLineMm, reportedPosition } from "./position/reported.js";
 
 // machines
 export type { Springs } from "./machines/profile.js";

@@ -97,7 +97,7 @@ export class MachinePlot implements RunningPlot {
       ...(live ? inWhole(live, start) : start),
       run,
     });
-    const { from = null, received } = start;
+    const { from = null } = start;
     const { stream, stops, feed } = this;
     this.plans = new PlotPlans({
       machine,
@@ -109,8 +109,7 @@ export class MachinePlot implements RunningPlot {
       start: from,
     });
     this.holdPlace =
-      from &&
-      resumePosition(machine, this.strokes, settings, this.stops.strokes, { from, received, run: start.run });
+      from && resumePosition(machine, this.strokes, settings, this.stops.strokes, { ...start, from });
     if (start.held ?? this.holdPlace !== null) this.requested = "hold";
     this.finished = this.run();
     // Callers await `finished`. If none does, its rejection must not end the process, so it is handled here.

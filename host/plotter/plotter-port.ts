@@ -138,11 +138,12 @@ export interface JournalEntry {
   readonly received?: StrokePosition | undefined;
   /** The run of the plot that wrote this: a machine found in the middle of another run says nothing about the place. */
   readonly run?: number | undefined;
+  /** Where the carriage was then. */
   readonly xMm: number;
   readonly yMm: number;
   readonly penUp: boolean;
   readonly elapsedS: number;
-  /** The board that draws; the plotter adds it. */
+  /** The board that draws; the plotter adds it. The position of any other board says nothing about this plot. */
   readonly board?: BoardId | undefined;
 }
 
@@ -150,17 +151,16 @@ interface PlotJournal {
   record(entry: JournalEntry): void;
 }
 
-export interface PlotStart {
+/** What a journal entry says beside its place, for a plot that starts there. By default nothing was drawn after the place. */
+export type StoppedAt = {
+  readonly [Key in "received" | "run" | "xMm" | "yMm" | "board"]?: JournalEntry[Key] | undefined;
+};
+
+export interface PlotStart extends StoppedAt {
   /** The drawing is drawn while these strokes are still being added; the planner is `livePlanner` of them. */
   readonly live?: LiveStrokes | undefined;
   /** Where in the drawing to start; after a crash, the journal's place. Default: the beginning. */
   readonly from?: StrokePosition | null | undefined;
-  /** `received` of the same journal entry. Default: nothing was drawn after `from`. */
-  readonly received?: StrokePosition | undefined;
-  /** `run` of the same journal entry. */
-  readonly run?: number | undefined;
-  /** `board` of the same journal entry. The position of any other board says nothing about this plot. */
-  readonly board?: BoardId | undefined;
   /** Start held, without moving. Default true if `from` is set, so that the user decides when to continue. */
   readonly held?: boolean | undefined;
   readonly journal?: PlotJournal | undefined;

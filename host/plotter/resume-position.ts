@@ -2,7 +2,8 @@
 import { z } from "zod";
 import type { StrokePosition, StrokeSet } from "../../src/index.js";
 import {
-  lowerAheadMm as maxLowerAheadMm,
+  isBetween,
+  lowerAheadMm,
   maxOffDrawingMm,
   maxOffLineMm,
   machineOf,
@@ -12,7 +13,7 @@ import {
   type Machine,
 } from "../../src/internal.js";
 import { boardIdSchema, type PlotSettings } from "../../src/schema/index.js";
-import type { JournalEntry } from "./plotter-port.js";
+import type { StoppedAt } from "./plotter-port.js";
 
 /** Max time between two journal entries, in real seconds. */
 export const JOURNAL_S = 0.25;
@@ -31,6 +32,8 @@ export const journalSchema = z.object({
   place: placeSchema,
   received: placeSchema.optional(),
   run: z.int().optional(),
+  xMm: z.number().optional(),
+  yMm: z.number().optional(),
   board: boardIdSchema.optional(),
 });
 
@@ -41,38 +44,50 @@ export const journalProgressSchema = z.object({
   remainingS: z.number().min(0).nullable(),
 });
 
+const HOME = { x: 0, y: 0 };
+
 /** `penStops`: the strokes before which the plot goes home and waits. */
 export function resumePosition(
   machine: Pick<Machine, "foundMidPlot" | "speed" | "positionMm">,
   strokes: StrokeSet,
   settings: PlotSettings,
   penStops: readonly number[],
-  { from, received, run }: { readonly from: StrokePosition } & Pick<JournalEntry, "received" | "run">,
+  { from, received, run, xMm, yMm }: { readonly from: StrokePosition } & StoppedAt,
 ): StrokePosition {
   const profile = machineOf(settings);
   const { foundMidPlot, speed } = machine;
   const at = machine.positionMm(profile);
   if (!foundMidPlot || !at) return from;
-  // Another plot has moved the carriage since.
-  if (foundMidPlot.run !== undefined && foundMidPlot.run !== run) return from;
-  // The plot was on its way to `from`. A pen on the paper shows that the board has received more since, and draws there.
-  if (!received && foundMidPlot.penUp) return from;
+  if (!foundMidPlot.isOfRun(run)) return from;
   const { motion, pen, sendAheadMs } = settings;
   const { draw, travel } = motion;
-  const aheadS = (SENT_SINCE_S + sendAheadMs / 1_000) * speed;
   const nearMm = maxOffDrawingMm(motion, profile);
-  const lowerAheadMm = maxLowerAheadMm(timedPen(pen, profile), travel.accelMmPerS2);
-  // A resumed plot came from anywhere. Just before `from`, its pen comes down.
-  const start = pointAt(strokes, from);
-  const isResumed = from.stroke > 0 || from.alongMm > 0;
-  if (!received && isResumed && Math.hypot(at.x - start.x, at.y - start.y) <= lowerAheadMm + nearMm)
-    return from;
+  const aheadMm = lowerAheadMm(timedPen(pen, profile), travel.accelMmPerS2);
+  if (!received) {
+    const start = pointAt(strokes, from);
+    if (foundMidPlot.penUp) {
+      // It was at rest, or on its way to `from`, perhaps by way of home. Elsewhere it has lifted the pen after `from`.
+      if (xMm === undefined || yMm === undefined) return from;
+      const entryAt = { x: xMm, y: yMm };
+      const ways = [
+        [entryAt, start],
+        [entryAt, HOME],
+        [HOME, start],
+      ] as const;
+      if (ways.some(([a, b]) => isBetween(a, b, at, nearMm))) return from;
+    } else {
+      // A resumed plot came from anywhere. Just before `from`, its pen comes down.
+      const isResumed = from.stroke > 0 || from.alongMm > 0;
+      if (isResumed && Math.hypot(at.x - start.x, at.y - start.y) <= aheadMm + nearMm) return from;
+    }
+  }
+  const aheadS = (SENT_SINCE_S + sendAheadMs / 1_000) * speed;
   const since = {
     aheadMm: aheadS * Math.max(draw.speedMmPerS, travel.speedMmPerS),
     nearMm,
     offLineMm: maxOffLineMm(motion, profile),
     stops: penStops,
-    lowerAheadMm,
+    lowerAheadMm: aheadMm,
   };
   return reportedPosition(strokes, received ?? from, { ...at, up: foundMidPlot.penUp }, since) ?? from;
 }

@@ -295,9 +295,7 @@ export class RunningPlots {
     const isJournalPlace = entry?.place.stroke === from?.stroke && entry?.place.alongMm === from?.alongMm;
     return {
       live: live ?? undefined,
-      received: isJournalPlace ? entry?.received : undefined,
-      run: isJournalPlace ? entry?.run : undefined,
-      board: entry?.board,
+      ...(isJournalPlace ? entry : { board: entry?.board }),
       journal: { record: (written) => this.safely(id, () => this.journals.save(id, written)) },
       noted: (message) => {
         notes.push(message);

@@ -266,8 +266,8 @@ export const MIN_RUN = 2 ** 28;
 /** How a machine was found in the middle of a plot. */
 export interface FoundMidPlot {
   readonly penUp: boolean;
-  /** The number of the run that moved it last (`PlaybackRequest`); undefined if the machine can't keep it. */
-  readonly run?: number | undefined;
+  /** Whether that run (`PlaybackRequest`) moved it last, as far as the machine can keep its number. */
+  isOfRun(run: number | undefined): boolean;
 }
 
 export interface PlaybackRequest {

@@ -186,6 +186,10 @@ function isLowering(
 
 const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
 
+/** Whether a point is at most `nearMm` from a straight way. */
+export const isBetween = (from: Point, to: Point, point: Point, nearMm: number): boolean =>
+  awayFromLine({ from, to }, point) <= nearMm;
+
 /** A straight line passes each point once. */
 const awayFromLine = ({ from, to }: Travel, { x, y }: Point): number =>
   passesOf([from.x, from.y, to.x, to.y], x, y)[0].awayMm;

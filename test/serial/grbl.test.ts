@@ -26,6 +26,7 @@ import { PtyGrbl } from "../support/processes/pty-grbl.js";
 import { startServerProcess } from "../support/processes/server-process.js";
 import { send } from "../support/servers/shared-servers.js";
 import { countFor, IS_FULL } from "../support/runs/full-run.js";
+import { startAfter } from "../support/plots/start-after.js";
 
 const SPEED = 150;
 /** For faults at a certain moment. */
@@ -160,8 +161,7 @@ describe("a plot on a Grbl that keeps its place", () => {
       await expect(run.finished).rejects.toThrow();
       board.tell("replug");
       await untilIdle(plotter);
-      const { place: from, received } = journal.at(-1)!;
-      const again = await plotter.plot(new LocalPlanner(FAULT_DRAWING), SETTINGS, { from, received });
+      const again = await plotter.plot(new LocalPlanner(FAULT_DRAWING), SETTINGS, startAfter(journal.at(-1)));
       await again.resume();
       expect(await again.finished).toEqual({ kind: "done" });
       const { gapMm, overlapMm } = compareDrawn(FAULT_DRAWING, (await board.report()).drawn);

@@ -15,6 +15,7 @@ import { plotting, seeded } from "../support/plots/live-plot.js";
 import { LocalPlanner, strokesOf } from "../support/plots/local-planner.js";
 import { PtyBoard } from "../support/processes/pty-board.js";
 import { countFor } from "../support/runs/full-run.js";
+import { startAfter } from "../support/plots/start-after.js";
 
 const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 const FIRMWARES = COUNT > 1 ? ["2.8.1", "3.0.3"] : ["2.8.1"];
@@ -122,16 +123,16 @@ async function resumedAfter(
 ): Promise<number> {
   const board = await PtyBoard.open({ firmware, wakeful: true });
   try {
-    const { place: from, received, run: before } = await interrupt(board, line, afterS);
+    const last = await interrupt(board, line, afterS);
     const driver = new NodePlotter({ device: board.path });
     try {
       await driver.start();
       await untilIdle(driver);
-      const run = await driver.plot(new LocalPlanner(strokesOf(line)), DEFAULT_PLOT_SETTINGS, {
-        from,
-        received,
-        run: before,
-      });
+      const run = await driver.plot(
+        new LocalPlanner(strokesOf(line)),
+        DEFAULT_PLOT_SETTINGS,
+        startAfter(last),
+      );
       await run.resume();
       expect(await run.finished).toEqual({ kind: "done" });
     } finally {

@@ -25,6 +25,7 @@ import { countFor } from "../support/runs/full-run.js";
 import { seeded } from "../support/plots/live-plot.js";
 import { LocalPlanner } from "../support/plots/local-planner.js";
 import { PtyBoard } from "../support/processes/pty-board.js";
+import { startAfter } from "../support/plots/start-after.js";
 
 const COUNT = countFor("PLOTWRIGHT_FAULTS", 20, 1);
 /** Missing or drawn twice, mm. */
@@ -85,16 +86,12 @@ const unplug: Interrupt = async (board, overlap, afterS) => {
 async function resumed(interrupt: Interrupt, { overlap, firmware, servo }: Case, afterS: number) {
   const board = await PtyBoard.open({ firmware, wakeful: true, servo: virtualServo(servo) });
   try {
-    const { place: from, received, run: before } = await interrupt(board, overlap, afterS);
+    const last = await interrupt(board, overlap, afterS);
     const driver = new NodePlotter({ device: board.path });
     try {
       await driver.start();
       await untilIdle(driver);
-      const run = await driver.plot(new LocalPlanner(HOPS), penSettings(overlap), {
-        from,
-        received,
-        run: before,
-      });
+      const run = await driver.plot(new LocalPlanner(HOPS), penSettings(overlap), startAfter(last));
       await run.resume();
       expect(await run.finished).toEqual({ kind: "done" });
     } finally {

@@ -82,7 +82,7 @@ async function drawLive(settings: PlotSettings, options: LiveCommandOptions, io:
 }
 
 /** Whether this is the board that was drawing, and it still knows where it is. */
-function isStillThere({ board }: InterruptedPlot, plotter: PlotterPort): boolean {
+function isStillThere({ stopped: { board } }: InterruptedPlot, plotter: PlotterPort): boolean {
   const now = plotter.snapshot();
   return now.xMm !== null && !(board !== undefined && isOtherBoard(board, now));
 }
@@ -103,7 +103,7 @@ function begin(
     live: source,
     journal: journalIn(record, () => 0, io),
     noted: (message) => io.err(printed`${message}\n`),
-    ...(left && { from: left.from, received: left.received, run: left.run, board: left.board, held: false }),
+    ...(left && { from: left.from, ...left.stopped, held: false }),
   };
   return plotter.plot(livePlanner(source), settings, start);
 }

@@ -16,7 +16,7 @@ import { z } from "zod";
 import { PlotwrightError } from "../../../src/index.js";
 import { plotSettingsSchema, type PlotSettings } from "../../../src/schema/index.js";
 import { journalSchema } from "../../../host/plotter/resume-position.js";
-import type { JournalEntry } from "../../../host/plotter/plotter-port.js";
+import type { JournalEntry, StoppedAt } from "../../../host/plotter/plotter-port.js";
 import { makeDataFolder } from "../../storage/data-dir.js";
 import { fileFault } from "../../storage/file-fault.js";
 import { isAlive, thisProcess } from "../../storage/process-owner.js";
@@ -41,9 +41,7 @@ interface StoredPlot {
 /** An interrupted plot. */
 export interface InterruptedPlot extends StoredPlot {
   readonly from: JournalEntry["place"];
-  readonly received: JournalEntry["received"];
-  readonly run: JournalEntry["run"];
-  readonly board: JournalEntry["board"];
+  readonly stopped: StoppedAt;
   /** 0 … 1. */
   readonly progress: number;
 }
@@ -123,8 +121,8 @@ export class PlotRecord {
     if (!plot.success || !entry.success || !existsSync(this.drawingPath)) return null;
     if (this.ownerElsewhere() !== null) return null;
     const { name, settings, only } = plot.data;
-    const { place, received, run, board, progress } = entry.data;
-    return { name, settings, only, from: place, received, run, board, progress };
+    const { place, progress, ...stopped } = entry.data;
+    return { name, settings, only, from: place, stopped, progress };
   }
 
   /** Throws `not-found`, or `conflict` if the plot still runs in another process. */

@@ -62,9 +62,7 @@ interface Plot {
   readonly only: readonly string[] | undefined;
   readonly font: string | undefined;
   readonly from: InterruptedPlot["from"] | null;
-  readonly received: InterruptedPlot["received"];
-  readonly run: InterruptedPlot["run"];
-  readonly board: InterruptedPlot["board"];
+  readonly stopped: InterruptedPlot["stopped"];
   /** Before it begins, 0 … 1. */
   readonly progress: number;
 }
@@ -160,9 +158,7 @@ export async function runPlot(
         only,
         font,
         from: null,
-        received: undefined,
-        run: undefined,
-        board: undefined,
+        stopped: {},
         progress: 0,
       };
       return plotOne(plot, { begin: () => record.begin(path, plot, font), record, end, over }, options, io);
@@ -273,14 +269,14 @@ function mustNotWaitForPen({ strokes }: OpenPlanner, { settings, from }: Plot): 
 async function onPlotter(
   plotter: PlotterPort,
   planner: OpenPlanner,
-  { name, settings, from, received, run: interruptedRun, board, progress: before }: Plot,
+  { name, settings, from, stopped, progress: before }: Plot,
   { begin, record, end, over }: Course,
   isInterrupted: () => boolean,
   options: PlotCommandOptions,
   io: CliIo,
 ): Promise<number> {
   const found = plotter.snapshot();
-  const isOther = board !== undefined && isOtherBoard(board, found);
+  const isOther = stopped.board !== undefined && isOtherBoard(stopped.board, found);
   const position = isOther ? "other" : found.xMm === null ? "lost" : "known";
   let progress = before;
   begin();
@@ -288,7 +284,7 @@ async function onPlotter(
   // A resumed plot waits for the user, unless there is no keyboard to start it with.
   const held = from !== null && io.hasKeyboard;
   const noted = (message: string): void => io.err(printed`${message}\n`);
-  const start: PlotStart = { from, received, run: interruptedRun, board, journal, noted, held };
+  const start: PlotStart = { from, ...stopped, journal, noted, held };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
   const resumed = from === null ? null : ({ position, findsHome: findsHome(machineOf(settings)) } as const);

@@ -10,6 +10,7 @@ import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { compareDrawn, type DrawnTruth } from "../drawings/drawn-truth.js";
 import { LocalPlanner, strokesOf } from "./local-planner.js";
 import { PtyBoard, type BoardReport } from "../processes/pty-board.js";
+import { startAfter } from "./start-after.js";
 
 /** Long and short lines, curves and corners, all some mm apart: about 8 s of plotting. */
 export const FAULT_DRAWING: StrokeSet = strokesOf(
@@ -57,9 +58,7 @@ export async function plotWithFault(
     const journal: JournalEntry[] = [];
     const start = (): Promise<RunningPlot> =>
       driver.plot(new LocalPlanner(FAULT_DRAWING), DEFAULT_PLOT_SETTINGS, {
-        from: journal.at(-1)?.place,
-        received: journal.at(-1)?.received,
-        run: journal.at(-1)?.run,
+        ...startAfter(journal.at(-1)),
         journal: { record: (entry) => journal.push(entry) },
       });
     const { sleptS: sleptBeforeS } = await board.report();

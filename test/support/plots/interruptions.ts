@@ -153,7 +153,7 @@ export class InterruptiblePlot {
     const last = count - 1;
     const at = positionFromMotors(machineOf(settings), stream.steps1[last], stream.steps2[last]);
     const penUp = isPenUpBefore(trajectory, stream.planS[count]);
-    const machine = { foundMidPlot: { penUp }, speed: 1, positionMm: () => at };
+    const machine = { foundMidPlot: { penUp, isOfRun: () => true }, speed: 1, positionMm: () => at };
     const found = resumePosition(machine, strokes, settings, [], { from, received });
     const drawnMm = this.drawnMm(count);
     const sure: StrokePosition = received ?? from;

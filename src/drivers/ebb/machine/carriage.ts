@@ -53,7 +53,7 @@ export class Carriage {
     }
     // The place of a carriage that was moved since the plot, also by another program, says nothing about the plot.
     const run = position.state && isOurs ? await position.mark.unfinishedRun() : null;
-    if (run !== null) position.foundMidPlot = { penUp, run };
+    if (run !== null) position.foundMidPlot = { penUp, isOfRun: (other) => other === run };
   }
 
   /** Switches the motors on if they are off. Fails if the position was lost while the board was at rest. */

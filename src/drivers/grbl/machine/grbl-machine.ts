@@ -6,6 +6,7 @@ import { machineOf } from "../../../machines/profiles.js";
 import type {
   ConnectOptions,
   ConsoleAnswer,
+  FoundMidPlot,
   Machine,
   Playback,
   PenBefore,
@@ -38,7 +39,7 @@ import {
 } from "../protocol.js";
 import { endLeft } from "./braking.js";
 import { sendTyped } from "./console.js";
-import { homeByMark, homeMark, inPlotByMark, type GrblMemory } from "./kept-home.js";
+import { foundMidPlot, homeByMark, homeMark, keptRun, runByMark, type GrblMemory } from "./kept-home.js";
 import { GrblPlayback } from "./grbl-playback.js";
 import { leftPen } from "./left-pen.js";
 import { LineStream } from "./line-stream.js";
@@ -56,7 +57,7 @@ export class GrblMachine implements Machine {
   motorsOn: boolean | null = null;
   /** What the user should know about it, in words; null: nothing. */
   note: string | null = null;
-  foundMidPlot: { readonly penUp: boolean } | null = null;
+  foundMidPlot: FoundMidPlot | null = null;
   /**
    * Home in machine coordinates, mm; null: unknown. It is kept here and not in the Grbl, whose work offsets are the user's.
    */
@@ -73,8 +74,8 @@ export class GrblMachine implements Machine {
   private lockedBy: PlotwrightError | null = null;
   /** Its open door or its emergency stop lets nothing move. */
   private isBarred = false;
-  /** An unfinished plot moved the carriage last. */
-  private isInPlot = false;
+  /** `keptRun` of the unfinished plot that moved the carriage last; null if something else did. */
+  private run: number | null = null;
   private byHand: LineStream | null = null;
   private readonly pen: GrblPen;
 
@@ -108,9 +109,8 @@ export class GrblMachine implements Machine {
   }
 
   get memory(): GrblMemory {
-    const { home, pen, isBarred, isInPlot } = this;
-    const foundMidPlot = isBarred ? this.foundMidPlot : undefined;
-    return { home, penZeroMm: pen.zeroMm, foundMidPlot, isInPlot };
+    const { home, pen, isBarred, run } = this;
+    return { home, penZeroMm: pen.zeroMm, foundMidPlot: isBarred ? this.foundMidPlot : undefined, run };
   }
 
   positionMm(profile: MachineProfile): { x: number; y: number } | null {
@@ -180,7 +180,7 @@ export class GrblMachine implements Machine {
 
   async perform({ commands }: PlannedPlot, settings: MachineSettings): Promise<void> {
     const { stopSignal } = this;
-    await this.noteInPlot(false);
+    await this.noteRun(null);
     stopSignal.throwIfAborted();
     const stream = this.stream(grblCommandsOf(commands), (state) => stream.slowDown(heldError(state)));
     this.byHand = stream;
@@ -195,10 +195,11 @@ export class GrblMachine implements Machine {
     }
   }
 
-  /** Call before a plot moves the carriage, when it has ended, and before anything else moves it. */
-  async noteInPlot(isInPlot: boolean): Promise<void> {
-    if (isInPlot === this.isInPlot) return;
-    this.isInPlot = isInPlot;
+  /** Call with its number before a run of a plot moves the carriage. Call with null when it has ended, and before anything else does. */
+  async noteRun(number: number | null): Promise<void> {
+    const run = number === null ? null : keptRun(number);
+    if (run === this.run) return;
+    this.run = run;
     await this.markHome();
   }
 
@@ -356,8 +357,8 @@ export class GrblMachine implements Machine {
 
   /** Tells a later process where home is, as far as that is possible. */
   private markHome(): Promise<void> {
-    const { session, pen, home, isInPlot } = this;
-    return session.attempt(homeMark(pen.zeroMm === null ? home : null, isInPlot, session.settings));
+    const { session, pen, home, run } = this;
+    return session.attempt(homeMark(pen.zeroMm === null ? home : null, run, session.settings));
   }
 
   private use(settings: MachineSettings): MachineProfile {
@@ -408,9 +409,10 @@ export class GrblMachine implements Machine {
       return;
     }
     const left = leftPen(lift, status.at[2], this.session.modes, settings.pen, before);
-    const { foundMidPlot } = (before?.memory ?? {}) as Partial<GrblMemory>;
-    if (this.home && this.isInPlot)
-      this.foundMidPlot = foundMidPlot === undefined ? { penUp: left.isUp } : foundMidPlot;
+    const memory = (before?.memory ?? {}) as Partial<GrblMemory>;
+    if (this.home && this.run !== null)
+      this.foundMidPlot =
+        memory.foundMidPlot === undefined ? foundMidPlot(left.isUp, this.run) : memory.foundMidPlot;
     if (left.mustLift) await this.movePen(true, settings);
     else if (left.isUp) this.pen.setState(true);
   }
@@ -433,7 +435,7 @@ export class GrblMachine implements Machine {
     this.pen.zeroMm = memory?.penZeroMm ?? null;
     this.home = memory?.home ?? homeByMark(foundModes, status.machineAt, profile, settings);
     this.machineAt = status.machineAt;
-    this.isInPlot = memory?.isInPlot ?? inPlotByMark(foundModes);
+    this.run = memory === null || memory === undefined ? runByMark(foundModes) : memory.run;
     this.options.events.changed();
   }
 
@@ -441,7 +443,7 @@ export class GrblMachine implements Machine {
     const { machineAt } = await this.session.status();
     this.home = this.machineAt = machineAt;
     this.foundMidPlot = null;
-    this.isInPlot = false;
+    this.run = null;
     await this.markHome();
     this.options.events.changed();
     return machineAt;

@@ -26,7 +26,7 @@ interface GrblCarriage extends Pick<Machine, "penUp" | "movePen" | "positionMm" 
   /** Throws if the lines cannot be played. */
   stream(commands: GrblCommands): LineStream;
   /** Whether an unfinished plot moves the carriage, for the next connection. */
-  noteInPlot(isInPlot: boolean): Promise<void>;
+  noteRun(run: number | null): Promise<void>;
   /** Called after a job has been played to its end. */
   arrived(): Promise<void>;
   /**
@@ -98,7 +98,7 @@ export class GrblPlayback implements Playback {
     this.requested = null;
     this.isEmergency = false;
     this.receivedAtEnd = undefined;
-    await machine.noteInPlot(true);
+    await machine.noteRun(this.request.run);
     // `fail` may have been called while the pen was lifted.
     if (this.failure) throw this.failure;
     const commands = grblCommandsOf(plot.commands);
@@ -111,7 +111,7 @@ export class GrblPlayback implements Playback {
     try {
       await played;
       await machine.arrived();
-      await machine.noteInPlot(false);
+      await machine.noteRun(null);
       this.events.progressed(progress.update({ stream: commands, planS: plot.trajectory.totalS }));
       left = progress.place;
     } catch (error) {

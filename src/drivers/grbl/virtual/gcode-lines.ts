@@ -44,7 +44,7 @@ export class GcodeLines {
     if (this.board.isChecking()) return 0;
     const { modes, words } = block;
     if (modes.includes("M0")) return this.pause();
-    lasting.takeTool(words);
+    if (!lasting.takeTool(words)) return ERROR.highTool;
     const isChange = lasting.takeSpindle(block, motion.isEmpty);
     if (isChange === null) return null;
     if (isChange) {

@@ -20,8 +20,11 @@ export const ERROR = {
   badRadius: 34,
   noCentre: 35,
   unused: 36,
+  highTool: 38,
   stop: 50,
 } as const;
+/** The highest number of a tool. */
+const MAX_TOOL = 255;
 
 const WORDS = /([A-Z])([-+]?\d*\.?\d+)/g;
 /** Supported modes, by group. G4 and G10 are in a group of their own. */
@@ -93,9 +96,13 @@ export class Modes {
     return isChange;
   }
 
-  takeTool(words: Map<string, number>): void {
-    this.tool = words.get("T") ?? this.tool;
+  /** False if there is no such tool. */
+  takeTool(words: Map<string, number>): boolean {
+    const tool = words.get("T") ?? this.tool;
+    if (tool > MAX_TOOL) return false;
+    this.tool = tool;
     words.delete("T");
+    return true;
   }
 
   /** The motion of a line: its own, or the lasting one. */

@@ -13,6 +13,7 @@ import { IS_FULL } from "../../../support/runs/full-run.js";
 import { LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js";
 import { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { virtualPlotter } from "../../../support/plots/virtual-plotter.js";
+import { startAfter } from "../../../support/plots/start-after.js";
 
 /** They do not cross, so that each point of the drawn line belongs to one of them. */
 const STROKES = strokesOf([5, 5, 30, 5, 30, 12], [34, 12, 36, 5], [42, 8, 46, 24]);
@@ -58,8 +59,7 @@ async function plotWith(fault: Fault, firmware: string, atCommand: number) {
   while (outcomes.at(-1) !== "done" && outcomes.length < 4) {
     for (let s = 0; s < LIMIT_S && driver.state.connection !== "idle"; s += 0.05) await world.advance(0.05);
     const plotting = driver.plot(new LocalPlanner(STROKES), DEFAULT_PLOT_SETTINGS, {
-      from: journal.at(-1)?.place,
-      received: journal.at(-1)?.received,
+      ...startAfter(journal.at(-1)),
       held: false,
       journal: { record: (entry) => journal.push(entry) },
     });

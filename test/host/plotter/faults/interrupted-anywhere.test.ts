@@ -20,6 +20,7 @@ import { sampleStrokes } from "../../../support/drawings/sample-strokes.js";
 import { HOPS, penSettings } from "../../../support/machines/flying-pens.js";
 import { inQuality, SPRINGS, swinging } from "../../../support/machines/swinging.js";
 import { virtualPlotter } from "../../../support/plots/virtual-plotter.js";
+import { startAfter } from "../../../support/plots/start-after.js";
 
 const SAMPLES = [
   "flower-meadow",
@@ -103,13 +104,11 @@ async function killedInPause(settings: PlotSettings, firmware: string, random: (
   await world.advance(0.5 + 5 * random());
   void run.pause().catch(() => undefined);
   await world.advance(PAUSE_S * random());
-  const { place: from, received, run: before } = journal[journal.length - 1];
+  const last = journal.at(-1);
   board.unplug();
   await world.run(run.finished.catch(() => undefined));
   await world.advance(5);
-  const resumed = await world.run(
-    driver.plot(new LocalPlanner(FAULT_DRAWING), settings, { from, received, run: before }),
-  );
+  const resumed = await world.run(driver.plot(new LocalPlanner(FAULT_DRAWING), settings, startAfter(last)));
   await world.run(resumed.resume());
   expect(await world.run(resumed.finished)).toEqual({ kind: "done" });
   return compareDrawn(FAULT_DRAWING, board.drawn());

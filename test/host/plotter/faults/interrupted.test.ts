@@ -23,6 +23,7 @@ import {
   ranTicks,
 } from "../../../support/drawings/stop-truth.js";
 import { virtualBoardOf, virtualPlotter } from "../../../support/plots/virtual-plotter.js";
+import { startAfter } from "../../../support/plots/start-after.js";
 
 const FIRMWARES = ["2.8.1", "3.0.3"];
 const COUNT = 10;
@@ -107,9 +108,9 @@ async function underWay(world: ManualClock, journal: readonly JournalEntry[]): P
 
 /** Resumes the plot from the journal's place, and compares the paper with the drawing. */
 async function resumeAndCompare({ world, driver, board, strokes, journal }: Interrupted) {
-  const { place: from, received, run: before } = journal.at(-1) ?? { place: { stroke: 0, alongMm: 0 } };
+  const last = journal.at(-1);
   const run = await world.run(
-    driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, { from, received, run: before }),
+    driver.plot(new LocalPlanner(strokes), DEFAULT_PLOT_SETTINGS, startAfter(last)),
   );
   await world.advance(1);
   await world.run(run.resume());
@@ -208,7 +209,7 @@ it("a plot whose server is killed on a line that retraces itself resumes from th
     await underWay(world, journal);
     await world.advance(1.5 + 4 * random());
     // A killed server writes nothing at its end; the board plays what it has.
-    const { place: from, received, run: before } = journal[journal.length - 1];
+    const last = journal.at(-1)!;
     virtualBoardOf(driver).unplug();
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);
@@ -217,7 +218,7 @@ it("a plot whose server is killed on a line that retraces itself resumes from th
     const [plot] = planner.plots;
     const truthMm = drawnUntilMm(ROUND_AND_ROUND, plot, planSAfter(plot.commands, ticks));
     const again = await world.run(
-      driver.plot(new LocalPlanner(ROUND_AND_ROUND), DEFAULT_PLOT_SETTINGS, { from, received, run: before }),
+      driver.plot(new LocalPlanner(ROUND_AND_ROUND), DEFAULT_PLOT_SETTINGS, startAfter(last)),
     );
     expect(Math.abs(mmOf(ROUND_AND_ROUND, again.holdPlace!) - truthMm)).toBeLessThan(2 * GAP_MM);
     await world.run(Promise.all([again.cancel(), again.finished]));
@@ -243,13 +244,11 @@ describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
     virtualBoardOf(driver).unplug();
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);
-    const { place: from, received, run: before } = journal[journal.length - 1];
+    const last = journal.at(-1)!;
     const resume = (start: PlotStart = {}): Promise<RunningPlot> =>
       world.run(
         driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, {
-          from,
-          received,
-          run: before,
+          ...startAfter(last),
           ...start,
         }),
       );
@@ -263,7 +262,7 @@ describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
       virtualBoardOf(driver).unplug();
       await world.advance(5);
     };
-    return { world, driver, fromMm: mmOf(STRAIGHT, from), resume, holdPlace, reconnect };
+    return { world, driver, fromMm: mmOf(STRAIGHT, last.place), resume, holdPlace, reconnect };
   }
 
   it("is that of the plot after it was found a second time", async () => {
@@ -300,10 +299,10 @@ describe.each(FIRMWARES)("the place of a board on firmware %s", (firmware) => {
     virtualBoardOf(driver).unplug();
     await world.run(run.finished.catch(() => undefined));
     await world.advance(5);
-    const { place: from, received, run: before } = journal[journal.length - 1];
-    expect(from).toEqual(chosen);
+    const last = journal.at(-1)!;
+    expect(last.place).toEqual(chosen);
     const again = await world.run(
-      driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, { from, received, run: before }),
+      driver.plot(new LocalPlanner(STRAIGHT), DEFAULT_PLOT_SETTINGS, startAfter(last)),
     );
     expect(again.holdPlace).toEqual(chosen);
     await world.run(Promise.all([again.cancel(), again.finished]));

@@ -74,7 +74,7 @@ function resumedAfterEach(strokes: StrokeSet, settings: PlotSettings, firmware: 
     if (at.x === 0 && at.y === 0) continue;
     for (const agoS of RECEIVED_S) {
       const received = placeAt(Math.max(0, planS[i + 1] - agoS));
-      const machine = { foundMidPlot: { penUp }, speed: 1, positionMm: () => at };
+      const machine = { foundMidPlot: { penUp, isOfRun: () => true }, speed: 1, positionMm: () => at };
       const from = resumePosition(machine, strokes, settings, [], { from: received, received });
       const missingMm = mmOf(strokes, from) - mmOf(strokes, stop);
       const { x, y } = pointAt(strokes, from);
@@ -142,7 +142,11 @@ describe("a resumed plot that is killed as its pen comes down", () => {
     const strokes = strokesOf([10, 20, 50, 20], [19.85, 10, 19.85, 30]);
     const from = { stroke: 0, alongMm: 10 };
     const penDown = (x: number, y: number): StrokePosition => {
-      const machine = { foundMidPlot: { penUp: false }, speed: 1, positionMm: () => ({ x, y }) };
+      const machine = {
+        foundMidPlot: { penUp: false, isOfRun: () => true },
+        speed: 1,
+        positionMm: () => ({ x, y }),
+      };
       return resumePosition(machine, strokes, penSettings("fast"), [], { from });
     };
     expect(penDown(19.85, 19.75)).toEqual(from);

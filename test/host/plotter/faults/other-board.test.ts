@@ -8,6 +8,7 @@ import { FAULT_DRAWING } from "../../../support/plots/faulty-plots.js";
 import { LocalPlanner } from "../../../support/plots/local-planner.js";
 import { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { ascii } from "../../../support/plots/virtual-plots.js";
+import { startAfter } from "../../../support/plots/start-after.js";
 
 interface Kind {
   readonly name: string;
@@ -57,14 +58,14 @@ async function continuedOn(first: Kind, second: Kind, isSame = false) {
   await world.advance(3);
   await plug(isSame ? 0 : 1);
   await world.run(ended);
-  const { place: from, received, run: before, board } = journal[journal.length - 1];
-  expect(board).toMatchObject({ boardSerialNumber: first.serialNumber, firmware: first.firmware });
+  const last = journal.at(-1)!;
+  expect(last.board).toMatchObject({ boardSerialNumber: first.serialNumber, firmware: first.firmware });
   const again = await world.run(
-    driver.plot(planner, DEFAULT_PLOT_SETTINGS, { from, received, run: before, board, held: true }),
+    driver.plot(planner, DEFAULT_PLOT_SETTINGS, { ...startAfter(last), held: true }),
   );
   const { xMm } = driver.state;
   const { motorsOn, penUp } = boards[plugged].state();
-  const found = { isKnown: xMm !== null, motorsOn, penUp, isFromJournal: again.holdPlace === from };
+  const found = { isKnown: xMm !== null, motorsOn, penUp, isFromJournal: again.holdPlace === last.place };
   await world.run(Promise.all([again.leave(), again.finished]));
   await world.run(driver.close());
   return found;

@@ -17,6 +17,7 @@ import { LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js
 import { NO_EVENTS } from "../../../support/machines/machine.js";
 import { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { outcome, virtualPlotter } from "../../../support/plots/virtual-plotter.js";
+import { startAfter } from "../../../support/plots/start-after.js";
 
 const SETTINGS = DEFAULT_PLOT_SETTINGS;
 describe("a second emergency stop while the first is handled", () => {
@@ -78,11 +79,7 @@ async function newPlot(firmware: string, strokes: StrokeSet) {
   const plot = (start: PlotStart): Promise<RunningPlot> =>
     world.run(driver.plot(new LocalPlanner(strokes), SETTINGS, { ...start, journal: { record } }));
   const resumedGapMm = async (): Promise<number> => {
-    const again = await plot({
-      from: journal.at(-1)?.place,
-      received: journal.at(-1)?.received,
-      run: journal.at(-1)?.run,
-    });
+    const again = await plot(startAfter(journal.at(-1)));
     await world.run(again.resume());
     expect(await world.run(again.finished)).toEqual({ kind: "done" });
     return compareDrawn(strokes, board.drawn()).gapMm;

@@ -14,6 +14,7 @@ import { newPlotter, RefusedPlanner, SETTINGS } from "../../../support/plots/grb
 import { seeded } from "../../../support/plots/live-plot.js";
 import { LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js";
 import { cases } from "../../../support/runs/full-run.js";
+import { startAfter } from "../../../support/plots/start-after.js";
 
 const MOST_MM = 0.05;
 const PLOT_S = 9;
@@ -72,8 +73,10 @@ describe.each(FACES.filter((face) => face !== "DrawCore"))("arcs on a %s", (face
       fault(board);
       expect(await within(run.finished)).toMatch(/^board-error/);
       board.pushHome();
-      const { place: from, received } = journal.at(-1)!;
-      const rest = await begin(new LocalPlanner(ROUND_DRAWING), { from, received, held: false });
+      const rest = await begin(new LocalPlanner(ROUND_DRAWING), {
+        ...startAfter(journal.at(-1)),
+        held: false,
+      });
       expect(await within(rest.finished)).toEqual({ kind: "done" });
       const { gapMm, overlapMm } = compareDrawn(ROUND_DRAWING, board.drawn());
       expect(gapMm).toBeLessThan(MOST_MM);
@@ -95,8 +98,10 @@ describe("a refused arc", () => {
       const run = await begin(new RefusedPlanner(ROUND_DRAWING, index), { journal: { record } });
       expect(await within(run.finished)).toMatch(/^board-error: The Grbl refused G5X1/);
       expect(driver.state.xMm).not.toBeNull();
-      const { place: from, received } = journal.at(-1)!;
-      const rest = await begin(new LocalPlanner(ROUND_DRAWING), { from, received, held: false });
+      const rest = await begin(new LocalPlanner(ROUND_DRAWING), {
+        ...startAfter(journal.at(-1)),
+        held: false,
+      });
       expect(await within(rest.finished)).toEqual({ kind: "done" });
       expect({ index, ...compareDrawn(ROUND_DRAWING, board.drawn()) }.gapMm).toBeLessThan(MOST_MM);
     }

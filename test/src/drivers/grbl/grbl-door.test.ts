@@ -7,6 +7,7 @@ import { GRBL_SERVO } from "../../../support/machines/machine.js";
 import { FAULT_DRAWING } from "../../../support/plots/faulty-plots.js";
 import { newPlotter, plotterOn, SETTINGS } from "../../../support/plots/grbl-plotter.js";
 import { LocalPlanner } from "../../../support/plots/local-planner.js";
+import { startAfter } from "../../../support/plots/start-after.js";
 
 const DOOR = /^board-error: The Grbl's safety door is open, and nothing moves until it is closed\./;
 /** Longer than it takes until a plotter is connected again, s. */
@@ -71,8 +72,11 @@ describe("an open door", () => {
     board.setDoor(false);
     await world.advance(AGAIN_S);
     expect(driver.state).toMatchObject({ connection: "idle", penUp: true });
-    const { place: from, received } = journal.at(-1)!;
-    const rest = await begin(new LocalPlanner(FAULT_DRAWING), { from, received, held: false }, settings);
+    const rest = await begin(
+      new LocalPlanner(FAULT_DRAWING),
+      { ...startAfter(journal.at(-1)), held: false },
+      settings,
+    );
     expect(await within(rest.finished)).toEqual({ kind: "done" });
     expectWhole(board);
   });

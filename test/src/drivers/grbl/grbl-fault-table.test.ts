@@ -18,6 +18,7 @@ import { seeded } from "../../../support/plots/live-plot.js";
 import { LocalPlanner } from "../../../support/plots/local-planner.js";
 import { outcome } from "../../../support/plots/virtual-plotter.js";
 import { cases, IS_FULL } from "../../../support/runs/full-run.js";
+import { startAfter } from "../../../support/plots/start-after.js";
 
 const GAP_MM = 0.05;
 /** What is drawn twice at most if the place is known. */
@@ -219,8 +220,11 @@ async function plotWith(row: Row, face: FaceName, ordinary: MachineProfile, atS:
     await world.run(run.finished, 60);
   } else if (ended !== "done") {
     expect(connection).toBe("idle");
-    const { place: from, received } = journal.at(-1) ?? {};
-    const rest = await begin(new LocalPlanner(FAULT_DRAWING), { from, received, held: false }, settings);
+    const rest = await begin(
+      new LocalPlanner(FAULT_DRAWING),
+      { ...startAfter(journal.at(-1)), held: false },
+      settings,
+    );
     await world.run(rest.finished, 60);
   }
   expect(board.state()).toMatchObject({ state: "Idle", penUp: true, lostCount: 0 });

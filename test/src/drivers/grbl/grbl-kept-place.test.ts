@@ -15,6 +15,7 @@ import { newPlotter, plotterOn, SETTINGS, settingsWith } from "../../../support/
 import { seeded } from "../../../support/plots/live-plot.js";
 import { layeredStrokes, LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js";
 import { cases } from "../../../support/runs/full-run.js";
+import { startAfter } from "../../../support/plots/start-after.js";
 
 const MOST_MM = 0.05;
 /** The drawing takes longer than that. */
@@ -58,10 +59,10 @@ async function interrupted(
     // As the person is asked to.
     board.pushHome();
   }
-  const { place: from, received } = how === "unplugged" ? journal.at(-1)! : atKill;
+  const last = how === "unplugged" ? journal.at(-1)! : atKill;
   const next = how === "unplugged" ? first : await plotterOn(board, world, machineOf(settings));
   const found = next.driver.state;
-  const start = { from, received, journal: { record } };
+  const start = { ...startAfter(last), journal: { record } };
   const resumed = await next.begin(new LocalPlanner(strokes), start, settings);
   resumeAtPenStops(resumed);
   await world.run(resumed.resume());
@@ -136,6 +137,63 @@ describe.each(PLOTS)("a plot of %s on %s", (_, __, options, drawing) => {
   });
 });
 
+describe.each(FACES)("a plot of short lines on $face that was resumed", (options) => {
+  const HATCHING = strokesOf(
+    ...Array.from({ length: 120 }, (_, i) => {
+      const [x, y] = [20 + (i % 12) * 6, 20 + Math.floor(i / 12) * 4];
+      return [x, y, x + 4, y + 1];
+    }),
+  );
+  const settings = settingsWith(options);
+  const machine = machineOf(settings);
+
+  /** Killed, resumed by a second process, and interrupted again `afterS` later. */
+  async function interruptedAgain(how: "killed" | "unplugged", afterS: number) {
+    const { world, board, ...first } = await newPlotter(options);
+    const journal: JournalEntry[] = [];
+    const record = (entry: JournalEntry): void => void journal.push(entry);
+    const plotBy = (plotter: typeof first) => {
+      const start = { ...startAfter(journal.at(-1)), held: false, journal: { record } };
+      return plotter.begin(new LocalPlanner(HATCHING), start, settings);
+    };
+    await plotBy(first);
+    await world.advance(4);
+    first.kill();
+    await world.advance(REST_S);
+    const second = await plotterOn(board, world, machine);
+    const run = await plotBy(second);
+    const ended = run.finished.catch(() => undefined);
+    await world.advance(afterS);
+    const count = journal.length;
+    if (how === "killed") second.kill();
+    else second.line().unplug();
+    await world.advance(REST_S);
+    // What the dead process would still write is not written.
+    if (how === "killed") journal.length = count;
+    const rest = await plotBy(how === "killed" ? await plotterOn(board, world, machine) : second);
+    expect(await world.run(rest.finished)).toEqual({ kind: "done" });
+    await ended;
+    const { gapMm, overlapMm } = compareDrawn(HATCHING, board.drawn());
+    return { afterS, gapMm, overlapMm };
+  }
+
+  it.each(["killed", "unplugged"] as const)(
+    "goes on where it stopped if it is %s soon after",
+    { timeout: 120_000 },
+    async (how) => {
+      const count = cases(30, 6);
+      for (let i = 0; i < count; i++) {
+        const { gapMm, overlapMm, afterS } = await interruptedAgain(how, (0.9 * i) / count);
+        expect({ afterS, isWhole: gapMm < MOST_MM, isOnce: overlapMm < MOST_MM }).toEqual({
+          afterS,
+          isWhole: true,
+          isOnce: true,
+        });
+      }
+    },
+  );
+});
+
 describe("the place of a Grbl", () => {
   const LINE = strokesOf([10, 10, 200, 10], [200, 20, 10, 90]);
 
@@ -148,16 +206,16 @@ describe("the place of a Grbl", () => {
     const record = (entry: JournalEntry): void => void journal.push(entry);
     await first.begin(new LocalPlanner(LINE), { journal: { record } });
     await world.advance(2.5);
-    const { place: from, received } = journal.at(-1)!;
-    expect(from.stroke).toBe(0);
+    const last = journal.at(-1)!;
+    expect(last.place.stroke).toBe(0);
     first.kill();
     await world.advance(REST_S);
     const second = await plotterOn(board, world);
     await meanwhile(second, world);
     second.kill();
     const third = await plotterOn(board, world);
-    const resumed = await third.begin(new LocalPlanner(LINE), { from, received });
-    return { fromMm: from.alongMm, resumedMm: resumed.holdPlace!.alongMm };
+    const resumed = await third.begin(new LocalPlanner(LINE), startAfter(last));
+    return { fromMm: last.place.alongMm, resumedMm: resumed.holdPlace!.alongMm };
   }
 
   it("is that of the plot after it was found a second time", async () => {
@@ -170,6 +228,16 @@ describe("the place of a Grbl", () => {
     const { fromMm, resumedMm } = await killedOnLine((next, world) =>
       world.run(next.driver.move({ kind: "move-to", xMm: x, yMm: y })),
     );
+    expect(resumedMm).toBeCloseTo(fromMm, 6);
+  });
+
+  it("is not that of another run of the same drawing that was killed since, farther on", async () => {
+    const { fromMm, resumedMm } = await killedOnLine(async (next, world) => {
+      await next.begin(new LocalPlanner(LINE), { from: { stroke: 0, alongMm: 100 }, held: false });
+      await world.advance(2);
+      next.kill();
+      await world.advance(REST_S);
+    });
     expect(resumedMm).toBeCloseTo(fromMm, 6);
   });
 
