@@ -213,7 +213,7 @@ export type {
   VirtualBench,
   VirtualMachine,
 } from "./drivers/driver.js";
-export { homeAgain, powerFailed, powerLost, powerLow } from "./drivers/faults.js";
+export { HEIGHT_AGAIN, homeAgain, powerFailed, powerLost, powerLow } from "./drivers/faults.js";
 export type { LivePart, MachineCommands, MachineState, PlannedPlot } from "./drivers/machine-job.js";
 export { AHEAD_STEP_MS, type PenMoment, type PlotProgress } from "./drivers/playback-progress.js";
 

@@ -232,7 +232,8 @@ export class MachinePlot implements RunningPlot {
   /** One move after the other. None begins after an emergency stop that came in between. */
   private async moveAtHold(move: () => Promise<void>): Promise<void> {
     const { stopSignal } = this.machine;
-    const moved = this.moving.then(() => {
+    const moved = this.moving.then(async () => {
+      await this.heightIsAgain();
       stopSignal.throwIfAborted();
       return move();
     });
@@ -269,6 +270,7 @@ export class MachinePlot implements RunningPlot {
         "There is nothing to draw: every stroke is hidden, clipped or dropped.",
       );
     }
+    if (this.requested === "run") await this.heightIsAgain();
     await this.liftPenIfDown();
     // Found on the machine, and no longer so once something moves it.
     if (this.holdPlace) this.reports.writeJournal(this.holdPlace);
@@ -325,6 +327,11 @@ export class MachinePlot implements RunningPlot {
     }
   }
 
+  /** Before a continued plot moves anything, the user has been told to bring its pen to a known height. */
+  private async heightIsAgain(): Promise<void> {
+    if (this.start.from) await this.machine.height?.isAsSwitchedOn();
+  }
+
   /** Plans the rest with the new settings, and switches to it at a place that was not yet sent to the board. */
   private async changeInMotion(): Promise<void> {
     const { speed, clock } = this.machine;
@@ -354,6 +361,7 @@ export class MachinePlot implements RunningPlot {
     this.wakeHold = null;
     await this.untilMoved();
     if (this.failure) throw this.failure;
+    if (this.requested === "run") await this.heightIsAgain();
     // A new pen may stand on the paper.
     if (this.machine.penUp === false) await this.machine.movePen(true, this.settings.current);
     if (this.requested === "run") this.stops.answer(this.holdPlace);

@@ -430,6 +430,7 @@ export class PlotterConnection {
       emergencyStopMs: machine.emergencyStopMs(this.settings),
       penUp: machine.penUp,
       penMoving: machine.penMoving,
+      heightUnsure: machine.height?.isUnsure ?? false,
       motorsOn: machine.motorsOn,
       xMm: position?.x ?? null,
       yMm: position?.y ?? null,

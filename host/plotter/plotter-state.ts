@@ -34,6 +34,7 @@ export type PlotterState = Omit<Plotter, "id" | "name" | "machine">;
 export const UNKNOWN = {
   penUp: null,
   penMoving: false,
+  heightUnsure: false,
   motorsOn: null,
   xMm: null,
   yMm: null,

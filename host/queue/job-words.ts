@@ -1,5 +1,5 @@
 /** Names of jobs, and what a job's message says about a plot that was held or interrupted. */
-import { findsHome, homeAgain, machineOf, tilesOf } from "../../src/internal.js";
+import { findsHome, HEIGHT_AGAIN, homeAgain, machineOf, tilesOf } from "../../src/internal.js";
 import type { Job, PlotSettings, PlotWait, Plotter } from "../../src/schema/index.js";
 import { OTHER_BOARD } from "../plotter/board-id.js";
 
@@ -32,15 +32,21 @@ export const stoppedJob = ({ xMm }: Pick<Plotter, "xMm">): Pick<Job, "stopped" |
       : "Stopped at once, and the pen was lifted. The board still knows its position, so the plot can be resumed. The line may have a small mark there.",
 });
 
-/** For a job that is continued: whether its board knows its position, or is another one. */
+/** What the user is told about a pen whose height is unsure. */
+export const heightWords = ({ heightUnsure }: Pick<Plotter, "heightUnsure">): string =>
+  heightUnsure ? ` The board does not know how high its pen is: ${HEIGHT_AGAIN}.` : "";
+
+/** For a job that is continued: whether its board knows its position, or is another one. `found`: its plotter. */
 export function recoveredWords(
   { settings, wait }: Pick<Job, "settings" | "wait">,
   position: "known" | "lost" | "other",
+  found: Pick<Plotter, "heightUnsure">,
 ): string {
   const again = homeAgain(findsHome(machineOf(settings)));
   const words =
     position === "known"
       ? "The board still knows its position. Check it with the pen up, then resume."
       : `${position === "other" ? OTHER_BOARD : "The board has lost its position"}: ${again}. The line may overlap a little where it continues.`;
-  return wait === null ? words : `${penWords(wait)} ${words}`;
+  const all = words + heightWords(found);
+  return wait === null ? all : `${penWords(wait)} ${all}`;
 }

@@ -124,7 +124,7 @@ export class RunningPlots {
     this.begin(plotter, job).timer.hold(this.parts.nowIso());
     const isOther = board !== undefined && isOtherBoard(board, found);
     const position = isOther ? "other" : found.xMm === null ? "lost" : "known";
-    return this.jobs.note(id, recoveredWords(job, position));
+    return this.jobs.note(id, recoveredWords(job, position, found));
   }
 
   /** Changes pen heights and speeds of a job that is plotting or held. While it is being planned the run gets them later. */

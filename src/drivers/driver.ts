@@ -223,6 +223,8 @@ interface MachineParts {
   readonly servo?: ServoPart;
   /** What this machine itself does not keep, for the next connection to it. Only its driver reads the content. */
   readonly memory?: object | null;
+  /** Moves the pen with an axis that does not find its height by itself. */
+  readonly height?: HeightPart;
   /** Measures the motors' supply. */
   readonly supply?: SupplyPart;
   /** Asks a machine without `supply` for anything, to notice if it no longer answers. */
@@ -236,6 +238,13 @@ interface MachineParts {
 interface ServoPart {
   /** Moves the servo to a raw position. */
   moveTo(pos: number, settings: MachineSettings): Promise<void>;
+}
+
+export interface HeightPart {
+  /** The controller counts from wherever the pen was when it was reset or switched on. */
+  readonly isUnsure: boolean;
+  /** The user has brought the pen to the height at which the machine is switched on. Does nothing if the height is sure. */
+  isAsSwitchedOn(): Promise<void>;
 }
 
 interface SupplyPart {

@@ -19,6 +19,10 @@ export const homeAgain = (findsHome: boolean): string =>
     ? `the plotter finds home by itself when you resume; ${HOME_ELSEWHERE}`
     : "push the carriage to home by hand before you resume";
 
+/** What to do about a pen on a Z axis whose height is lost. */
+export const HEIGHT_AGAIN =
+  "before you resume, turn its Z axis by hand to the height at which you switch the machine on";
+
 export const lineLost = (cause?: unknown): PlotwrightError =>
   new PlotwrightError(
     "disconnected",

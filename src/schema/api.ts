@@ -125,6 +125,12 @@ export const plotterSchema = z.object({
   penUp: z.boolean().nullable(),
   /** The pen is still on its way up or down. */
   penMoving: z.boolean().default(false),
+  /**
+   * Its pen is moved by a Z axis, which counts from wherever the pen was when the controller was reset or switched on. A plot
+   * that began before that must not be resumed until a user has turned the axis to the height at which the machine is
+   * switched on: when it resumes, that is taken to be the height.
+   */
+  heightUnsure: z.boolean().default(false),
   motorsOn: z.boolean().nullable(),
   /** mm from home; null if unknown. */
   xMm: z.number().nullable(),

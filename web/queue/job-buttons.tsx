@@ -44,7 +44,7 @@ const MainButton = ({ job, isAsked }: { job: Job; isAsked: boolean }) => {
   if (action === null) return null;
   return (
     <Button
-      title={isWaitingForTick ? words.cornerFirst : undefined}
+      title={isWaitingForTick ? words.tickFirst : undefined}
       kind={job.state === "plotting" ? "plain" : "primary"}
       disabled={isOff || isAsked}
       onClick={() => void actOnJob(job.id, action)}

@@ -9,7 +9,7 @@ import {
   currentPlotter,
   mayOperate,
   maySubmit,
-  needsCorner,
+  needsTick,
   type PageState,
 } from "../state/store.js";
 import { stateText } from "../state/text.js";
@@ -76,7 +76,7 @@ const PAUSE: PageAction = {
     if (main === null) return activeJob(state) === null ? plotText.noPlot : plotText.stopsOnly;
     if (!isMainActionOff(state, main.job, main.action)) return null;
     if (state.link !== "connected") return stateText.notConnected;
-    return isLocked(state, main.job, main.action) ? jobText.cornerFirst : jobText.asked;
+    return isLocked(state, main.job, main.action) ? jobText.tickFirst : jobText.asked;
   },
   perform: ({ store, actions }) => {
     const main = mainAction(store.getState());
@@ -115,9 +115,9 @@ const ACTIONS: Readonly<Partial<Record<Job["state"], MainAction>>> = {
 export const mainActionOf = (state: PageState, job: Job): MainAction | null =>
   mayOperate(state) || job.state === "plotting" ? (ACTIONS[job.state] ?? null) : null;
 
-/** Resuming would move the carriage from where it is not. */
+/** Resuming would move carriage or pen from where they are not. */
 export const isLocked = (state: PageState, job: Job, action: MainAction): boolean =>
-  action === "resume" && needsCorner(state, job);
+  action === "resume" && needsTick(state, job);
 
 /** Without a connection the server would not receive the request. */
 export const isMainActionOff = (state: PageState, job: Job, action: MainAction): boolean =>

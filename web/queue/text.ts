@@ -115,8 +115,15 @@ export const jobText = {
     "Push the carriage into its corner by hand. Otherwise the rest is drawn beside what is on the paper.",
   lostHomes:
     "It finds its corner by itself when you resume. Keep the way there free. If you had set home elsewhere, set it there again first.",
-  corner: "The carriage is in its corner",
-  cornerFirst: "First push the carriage into its corner, and tick that it is there.",
+  lostHeight: "The plotter does not know how high its pen is",
+  heightHint:
+    "Turn the Z axis by hand to the height at which you switch the machine on. Otherwise the pen draws in the air, or is pressed into the paper.",
+  ticks: {
+    corner: "The carriage is in its corner",
+    height: "The pen is at that height",
+    both: "The carriage is in its corner, and the pen at that height",
+  },
+  tickFirst: "First bring back by hand what the plotter has lost, and tick that it is there.",
   stopped: "Emergency stop",
   confirmCancel: (name: string) => `Stop “${name}”? The pen lifts and goes home. What is drawn stays drawn.`,
   cancelPlot: "Cancel the plot",

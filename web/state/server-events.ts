@@ -1,7 +1,7 @@
 /** Applies the server's events to the page's state. Pure functions. */
 import { inPageWords } from "../../src/internal.js";
 import { ENDED_STATES, type ServerEvent, type Snapshot } from "../../src/schema/index.js";
-import { isPositionLost, type PageState } from "./store.js";
+import { lostByHand, type PageState } from "./store.js";
 
 type Change = Partial<PageState>;
 
@@ -12,9 +12,9 @@ export const withPageWords = <T extends { readonly message: string | null }>(ite
 export const applyServerEvent = (state: PageState, event: ServerEvent): Change => {
   const change = changeBy(state, event);
   const after = { ...state, ...change };
-  const job = after.jobs.find(({ id }) => id === state.cornerJobId);
-  // If the position is lost once more, the user is asked again.
-  return job && isPositionLost(after, job) ? change : { ...change, cornerJobId: null };
+  const job = after.jobs.find(({ id }) => id === state.tickedJobId);
+  // If it is lost once more, the user is asked again.
+  return job && lostByHand(after, job) !== null ? change : { ...change, tickedJobId: null };
 };
 
 const changeBy = (state: PageState, event: ServerEvent): Change => {

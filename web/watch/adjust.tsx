@@ -2,7 +2,7 @@ import { useEffect, useState } from "react";
 import { isLiveJob, withOffs, type Job, type MovePlace, type PlotSettings } from "../../src/schema/index.js";
 import { KeepHeights, NudgeJob } from "../plotter/hand/pen-nudge.js";
 import { jobText as words } from "../queue/text.js";
-import { activeJob, mayOperate, penOf, penWait, type PageState } from "../state/store.js";
+import { activeJob, mayOperate, needsTick, penOf, penWait, type PageState } from "../state/store.js";
 import { useActions, useBackend, usePageState, usePageStore } from "../state/use-store.js";
 import { Button } from "../ui/button.js";
 import { Select } from "../ui/fields/choice.js";
@@ -52,6 +52,7 @@ export const Adjust = () => {
 const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place"]> }) => {
   const { movePlace, actOnJob } = useActions();
   const marking = usePlaceMark(job.id, place);
+  const isLost = usePageState((state) => needsTick(state, job));
   return (
     <div className="place" role="group" aria-label={words.placeMoves}>
       <p className="note">
@@ -64,7 +65,13 @@ const PlaceControls = ({ job, place }: { job: Job; place: NonNullable<Job["place
           </Button>
         ))}
       </div>
-      <Button kind="small" {...marking(HERE)} onClick={() => void actOnJob(job.id, "check-place")}>
+      <Button
+        kind="small"
+        disabled={isLost}
+        title={isLost ? words.tickFirst : undefined}
+        {...marking(HERE)}
+        onClick={() => void actOnJob(job.id, "check-place")}
+      >
         {words.checkPlace}
       </Button>
     </div>

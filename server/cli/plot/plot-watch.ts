@@ -1,5 +1,6 @@
 /** Progress of a running plot, and the keys that control it. */
 import { OTHER_BOARD } from "../../../host/plotter/board-id.js";
+import { heightWords } from "../../../host/queue/job-words.js";
 import { homeAgain } from "../../../src/internal.js";
 import type { PlotControl } from "../../../host/plotter/plotter-port.js";
 import type { PlotWait } from "../../../src/schema/index.js";
@@ -13,8 +14,12 @@ export interface WatchedPlot extends Omit<PlotControl, "onProgress"> {
 
 interface Watched {
   readonly report: PlotReport;
-  /** Resumed after an interruption: whether the board still knows the position, or is another board. */
-  readonly resumed: { readonly position: keyof typeof POSITIONS; readonly findsHome: boolean } | null;
+  /** Resumed after an interruption: whether the board still knows the position, or is another board, and the height. */
+  readonly resumed: {
+    readonly position: keyof typeof POSITIONS;
+    readonly findsHome: boolean;
+    readonly heightUnsure: boolean;
+  } | null;
   /** Ctrl-C was pressed while the plot was being started. */
   readonly isInterrupted: boolean;
   /** Aborted when the process must end: the plot is then interrupted. */
@@ -47,9 +52,10 @@ export async function watch(
     else control.continued();
   });
   report.begins(resumed === null ? "Plotting" : "Resuming");
-  if (isHeld)
-    io.err(`${POSITIONS[resumed.position](homeAgain(resumed.findsHome))} Enter resumes, Ctrl-C cancels.\n`);
-  else if (isInterrupted) control.interrupt();
+  if (isHeld) {
+    const words = POSITIONS[resumed.position](homeAgain(resumed.findsHome)) + heightWords(resumed);
+    io.err(`${words} Enter resumes, Ctrl-C cancels.\n`);
+  } else if (isInterrupted) control.interrupt();
   try {
     const outcome = await Promise.race([run.finished, control.failed]);
     const ended =

@@ -6,7 +6,7 @@
  */
 import { basename } from "node:path";
 import { importDrawing, PlotwrightError } from "../../../src/index.js";
-import { findsHome, firmwareAdvice, machineOf, sizeInWords } from "../../../src/internal.js";
+import { findsHome, firmwareAdvice, HEIGHT_AGAIN, machineOf, sizeInWords } from "../../../src/internal.js";
 import type { PlotSettings } from "../../../src/schema/index.js";
 import { defaultDataDir } from "../../storage/data-dir.js";
 import { fileFault } from "../../storage/file-fault.js";
@@ -278,6 +278,7 @@ async function onPlotter(
   const found = plotter.snapshot();
   const isOther = stopped.board !== undefined && isOtherBoard(stopped.board, found);
   const position = isOther ? "other" : found.xMm === null ? "lost" : "known";
+  if (from !== null && found.heightUnsure && !io.hasKeyboard) throw unsureHeight();
   let progress = before;
   begin();
   const journal = journalIn(record, () => progress, io);
@@ -287,7 +288,9 @@ async function onPlotter(
   const start: PlotStart = { from, ...stopped, journal, noted, held };
   const run = await plotter.plot(planner, settings, start);
   run.onProgress((now) => (progress = now.progress));
-  const resumed = from === null ? null : ({ position, findsHome: findsHome(machineOf(settings)) } as const);
+  const homes = findsHome(machineOf(settings));
+  const resumed =
+    from === null ? null : ({ position, findsHome: homes, heightUnsure: found.heightUnsure } as const);
   const report = plotReport(name, options, io);
   const endWords = "Interrupted: the pen lifts.";
   const watched = { report, resumed, isInterrupted: isInterrupted(), end, endWords };
@@ -302,6 +305,13 @@ async function onPlotter(
   }
   return ended === "done" ? 0 : cancelled(io);
 }
+
+/** Nobody can say that the pen is at its height. */
+const unsureHeight = (): PlotwrightError =>
+  new PlotwrightError(
+    "bad-setting",
+    `The plotter does not know the height of its pen, so the plot can't be resumed without a keyboard. Run it in a terminal, and ${HEIGHT_AGAIN}.`,
+  );
 
 /** The process must end. Says whether the plot can be resumed. */
 function interrupted(record: PlotRecord, io: CliIo): number {

@@ -1,6 +1,6 @@
 /** Grbl's replies and real-time commands. */
 import { PlotwrightError } from "../../errors.js";
-import { homeAgain } from "../faults.js";
+import { HEIGHT_AGAIN, homeAgain } from "../faults.js";
 import { alarmWords, errorWords } from "./codes.js";
 import { difference, sum, type Axes } from "./model/planner.js";
 
@@ -308,11 +308,7 @@ export const outOfStep = (): PlotwrightError =>
 
 /** The Grbl was reset while its pen moved, so that it counts from an unknown height. */
 export const withUnsureHeight = (error: PlotwrightError): PlotwrightError =>
-  new PlotwrightError(
-    error.code,
-    `${error.message} The height of the pen is lost, too: before you resume, turn its Z axis by hand to the height at which ` +
-      "the pen is when it is up.",
-  );
+  new PlotwrightError(error.code, `${error.message} The height of the pen is lost, too: ${HEIGHT_AGAIN}.`);
 
 /** Added to an error after which the pen could not be lifted. */
 export const NOT_LIFTED = "The pen could not be lifted: lift it by hand.";

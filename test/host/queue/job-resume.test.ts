@@ -61,6 +61,17 @@ describe("the queue, after a plot that did not end", () => {
     expect(queue.get(id).state).toBe("done");
   });
 
+  it("says what is to be brought back by hand if the board knows neither position nor height", async () => {
+    const { id, run } = await plotting();
+    run.record({ place: { stroke: 3, alongMm: 4.5 } });
+    run.fail(new PlotwrightError("disconnected", "The board was unplugged."));
+    await settled();
+    Object.assign(plotter, { xMm: null, heightUnsure: true });
+    expect(queue.plots.recover(id).message).toMatch(
+      /lost its position: push the carriage to home.* does not know how high its pen is: .*turn its Z axis by hand/,
+    );
+  });
+
   it("moves the pen of a job only while it waits for another one", async () => {
     const { id, run } = await plotting();
     await expect(queue.plots.movePen(id, false)).rejects.toThrow("does not wait for another pen");

@@ -3,8 +3,10 @@ import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { beforeEach, expect, it } from "vitest";
 import { GRBL } from "../../support/machines/machine.js";
+import { PlotRecord } from "../../../server/cli/plot/plot-record.js";
+import { DEFAULT_PLOT_SETTINGS } from "../../../src/schema/index.js";
 import { networkGrbl } from "../../support/plots/network-grbl.js";
-import { cli } from "../../support/processes/command-line.js";
+import { CaughtIo, cli, cliWith } from "../../support/processes/command-line.js";
 import { folderOfTest } from "../../support/processes/folders.js";
 
 const SAMPLE = join(import.meta.dirname, "../../../samples/whirling-triangles.svg");
@@ -93,6 +95,38 @@ it.each([
     const drawn = grbl.board.drawn().filter(({ penDown, xy }) => penDown && xy.length > 2);
     expect(drawn.map(({ xy }) => [...xy])).toEqual([[10, 10, 60, 10, 60, 40]]);
     expect(grbl.board.state()).toMatchObject({ penUp: true, lostCount: 0 });
+  } finally {
+    await grbl.close();
+  }
+});
+
+it("plot resumes with a Z axis of unknown height only when a person has brought it back, and says to where", async () => {
+  const drawing = join(dir, "line.svg");
+  writeFileSync(
+    drawing,
+    '<svg xmlns="http://www.w3.org/2000/svg" width="80mm" height="50mm" viewBox="0 0 80 50" fill="none" stroke="#000"><path d="M10 10H60V40"/></svg>',
+  );
+  const grbl = await networkGrbl({}, 50);
+  const record = new PlotRecord(dir, grbl.device);
+  const settings = { ...DEFAULT_PLOT_SETTINGS, machine: GRBL.id, customMachine: GRBL };
+  record.begin(drawing, { name: "line.svg", settings, only: undefined });
+  record.save({ place: { stroke: 0, alongMm: 20 }, xMm: 30, yMm: 10, penUp: false, elapsedS: 1 }, 0.3);
+  const plot = (io: CaughtIo) => cliWith(io, "plot", "--resume", "--device", grbl.device, "--data", dir);
+  try {
+    const alone = new CaughtIo();
+    alone.hasKeyboard = false;
+    expect(await plot(alone)).toMatchObject({
+      code: 2,
+      err: expect.stringMatching(/does not know the height of its pen.* turn its Z axis by hand/) as string,
+    });
+    expect(grbl.board.drawn().filter(({ xy }) => xy.length > 2)).toEqual([]);
+    const io = new CaughtIo();
+    const plotted = plot(io);
+    await expect
+      .poll(() => io.errText)
+      .toMatch(/lost its position.* how high its pen is: .*turn its Z axis by hand.* Enter resumes/);
+    io.line();
+    expect((await plotted).code).toBe(0);
   } finally {
     await grbl.close();
   }

@@ -57,6 +57,7 @@ export const makePlotter = (id: string, more: Partial<Plotter> = {}): Plotter =>
   message: null,
   penUp: true,
   penMoving: false,
+  heightUnsure: false,
   activity: "none",
   motorsOn: false,
   xMm: 0,

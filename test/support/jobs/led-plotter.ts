@@ -129,6 +129,7 @@ export class LedPlotter implements ManagedPlotter {
   connection: Plotter["connection"] = "idle";
   firmware: string | null = "2.8.1";
   xMm: number | null = 0;
+  heightUnsure = false;
   readonly asked: string[] = [];
   private onRun: (() => void)[] = [];
 
@@ -140,8 +141,8 @@ export class LedPlotter implements ManagedPlotter {
   }
 
   snapshot(): Plotter {
-    const { connection, firmware, xMm } = this;
-    return makePlotter(this.id, { name: this.name, connection, firmware, xMm });
+    const { connection, firmware, xMm, heightUnsure } = this;
+    return makePlotter(this.id, { name: this.name, connection, firmware, xMm, heightUnsure });
   }
 
   settled(): Promise<void> {

@@ -4,7 +4,14 @@ import { DEFAULT_PLOT_SETTINGS, type ServerEvent } from "../../../src/schema/ind
 import { parseServerEvent } from "../../../src/schema/index.js";
 import { DEFAULT_VIEW } from "../../../web/state/persist.js";
 import { applyServerEvent } from "../../../web/state/server-events.js";
-import { activeJob, createPageStore, currentPlotter, type PageState } from "../../../web/state/store.js";
+import {
+  activeJob,
+  createPageStore,
+  currentPlotter,
+  lostByHand,
+  needsTick,
+  type PageState,
+} from "../../../web/state/store.js";
 import { makeJob, makePlotter } from "../../support/jobs/jobs-on-page.js";
 
 const start = (): PageState =>
@@ -104,6 +111,28 @@ describe("server events", () => {
     ]);
     expect(activeJob(state)?.id).toBe("a");
   });
+
+  it.each([
+    ["corner", { xMm: null }],
+    ["height", { heightUnsure: true }],
+    ["both", { xMm: null, heightUnsure: true }],
+  ] as const)(
+    "a plot goes on only after a tick if its plotter has lost the %s, and is ticked again",
+    (lost, more) => {
+      const job = makeJob("a", { state: "paused", progress: 0.4 });
+      const plotter = makePlotter("virtual", more);
+      const held = after(start(), { type: "plotter", plotter }, { type: "job", job });
+      expect(lostByHand(held, job)).toBe(lost);
+      expect(needsTick(held, job)).toBe(true);
+      const ticked = after({ ...held, tickedJobId: job.id }, { type: "plotter", plotter });
+      expect(needsTick(ticked, job)).toBe(false);
+      const known = after(ticked, { type: "plotter", plotter: makePlotter("virtual") });
+      expect(lostByHand(known, job)).toBeNull();
+      expect(needsTick(after(known, { type: "plotter", plotter }), job)).toBe(true);
+      // Nothing of it is drawn.
+      expect(lostByHand(held, { ...job, progress: 0 })).toBeNull();
+    },
+  );
 
   it("an order event sorts, even with unknown ids", () => {
     const state = after(start(), snapshot("a", "b", "c"), { type: "order", ids: ["c", "ghost", "a"] });

@@ -48,8 +48,8 @@ export interface ServerSlice {
   readonly wantedPen: { readonly jobId: string; readonly pen: PlotSettings["pen"] } | null;
   /** The job whose pen heights were changed here while it plotted. */
   readonly nudgedJobId: string | null;
-  /** The job with a lost position for which the user has said that the carriage is in its corner. */
-  readonly cornerJobId: string | null;
+  /** The job for which the user has said that carriage and pen are where the plotter takes them to be. */
+  readonly tickedJobId: string | null;
   /** Where a button would move the place of the paused job, mm; shown on the sheet while there are such buttons. */
   readonly placeMark: { readonly xMm: number; readonly yMm: number } | null;
   /** The name of the request that is running: its button is disabled meanwhile. */
@@ -77,7 +77,7 @@ export const SERVER_AT_FIRST = {
   live: null,
   wantedPen: null,
   nudgedJobId: null,
-  cornerJobId: null,
+  tickedJobId: null,
   placeMark: null,
   busyAction: null,
   utilityJobIds: [],
@@ -115,19 +115,34 @@ export const unfinishedJob = (state: ServerSlice): Job | null => {
 };
 
 /**
- * A part of the job is drawn, and its plotter does not know where the carriage is: the rest would be drawn elsewhere. While
- * the plotter is not connected, nobody knows yet whether it is lost.
+ * The plotter of a job of which a part is drawn, if the rest is still to be drawn. While it is not connected, nobody knows yet
+ * whether anything is lost.
  */
-export const isPositionLost = ({ plotters }: ServerSlice, job: Job): boolean => {
+const plotterOfRest = ({ plotters }: ServerSlice, job: Job): Plotter | undefined => {
   const plotter = plotters.find(({ id }) => id === job.plotterId);
   const isHeld = job.state === "paused" || job.state === "interrupted";
   const isThere = plotter?.connection === "idle" || plotter?.connection === "busy";
-  return isHeld && job.progress > 0 && isThere && plotter.xMm === null;
+  return isHeld && job.progress > 0 && isThere ? plotter : undefined;
 };
 
-/** The job must not move before the user has pushed the carriage into its corner, and has said so. */
-export const needsCorner = (state: ServerSlice, job: Job): boolean =>
-  isPositionLost(state, job) && !findsHome(machineOf(job.settings)) && state.cornerJobId !== job.id;
+/** The plotter does not know where the carriage is: the rest of the job would be drawn elsewhere. */
+export const isPositionLost = (state: ServerSlice, job: Job): boolean =>
+  plotterOfRest(state, job)?.xMm === null;
+
+/** It does not know how high the pen is: the rest would be drawn in the air, or pressed into the paper. */
+export const isHeightLost = (state: ServerSlice, job: Job): boolean =>
+  plotterOfRest(state, job)?.heightUnsure === true;
+
+/** What the user must bring back by hand before the job goes on. */
+export const lostByHand = (state: ServerSlice, job: Job): "corner" | "height" | "both" | null => {
+  const isCorner = isPositionLost(state, job) && !findsHome(machineOf(job.settings));
+  const isHeight = isHeightLost(state, job);
+  return isCorner && isHeight ? "both" : isCorner ? "corner" : isHeight ? "height" : null;
+};
+
+/** The job must not move before the user has done that, and has said so. */
+export const needsTick = (state: ServerSlice, job: Job): boolean =>
+  lostByHand(state, job) !== null && state.tickedJobId !== job.id;
 
 /** A job's pen settings, with changes that the server has not answered yet. */
 export const penOf = ({ wantedPen }: ServerSlice, { id, settings }: Job): PlotSettings["pen"] =>

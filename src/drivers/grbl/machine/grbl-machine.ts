@@ -7,6 +7,7 @@ import type {
   ConnectOptions,
   ConsoleAnswer,
   FoundMidPlot,
+  HeightPart,
   Machine,
   Playback,
   PenBefore,
@@ -41,7 +42,7 @@ import { endLeft } from "./braking.js";
 import { sendTyped } from "./console.js";
 import { foundMidPlot, homeByMark, homeMark, keptRun, runByMark, type GrblMemory } from "./kept-home.js";
 import { GrblPlayback } from "./grbl-playback.js";
-import { leftPen } from "./left-pen.js";
+import { isHeightLost, leftPen } from "./left-pen.js";
 import { LineStream } from "./line-stream.js";
 import { GrblPen } from "./pen.js";
 import type { GrblSession } from "./session.js";
@@ -77,6 +78,7 @@ export class GrblMachine implements Machine {
   /** `keptRun` of the unfinished plot that moved the carriage last; null if something else did. */
   private run: number | null = null;
   private byHand: LineStream | null = null;
+  readonly height: HeightPart;
   private readonly pen: GrblPen;
 
   constructor(
@@ -84,7 +86,7 @@ export class GrblMachine implements Machine {
     readonly firmware: string,
     private readonly options: ConnectOptions,
   ) {
-    this.pen = new GrblPen(session, () => options.events.changed());
+    this.height = this.pen = new GrblPen(session, () => options.events.changed());
   }
 
   get clock(): Clock {
@@ -110,7 +112,8 @@ export class GrblMachine implements Machine {
 
   get memory(): GrblMemory {
     const { home, pen, isBarred, run } = this;
-    return { home, penZeroMm: pen.zeroMm, foundMidPlot: isBarred ? this.foundMidPlot : undefined, run };
+    const foundMidPlot = isBarred ? this.foundMidPlot : undefined;
+    return { home, penZeroMm: pen.zeroMm, isHeightUnsure: pen.isUnsure, foundMidPlot, run };
   }
 
   positionMm(profile: MachineProfile): { x: number; y: number } | null {
@@ -131,7 +134,8 @@ export class GrblMachine implements Machine {
     await session.readOffset();
     // Again, because only now the units are known.
     const status = await session.status();
-    if (!isLocked(status.state)) this.remember(status, before, profile);
+    const isKept = !isLocked(status.state) && this.remember(status, before, profile);
+    this.pen.isUnsure = !findsHome(profile) && isHeightLost(this.pen.liftOf(profile), before, isKept);
     await this.recovered(status);
     if (this.lockedBy) throw this.lockedBy;
     if (!this.isLocked) await this.liftLeft(status, settings, before);
@@ -198,6 +202,7 @@ export class GrblMachine implements Machine {
   /** Call with its number before a run of a plot moves the carriage. Call with null when it has ended, and before anything else does. */
   async noteRun(number: number | null): Promise<void> {
     const run = number === null ? null : keptRun(number);
+    if (run !== null) this.pen.isUnsure = false;
     if (run === this.run) return;
     this.run = run;
     await this.markHome();
@@ -230,8 +235,7 @@ export class GrblMachine implements Machine {
       this.isHoming = false;
     }
     await this.recovered(await session.status());
-    // Z counts from its switch again.
-    this.pen.zeroMm = null;
+    this.pen.foundSwitch();
     await this.homeIsHere();
     await this.movePen(true, settings);
     return true;
@@ -251,7 +255,7 @@ export class GrblMachine implements Machine {
 
   forgetPosition(): Promise<void> {
     this.home = this.foundMidPlot = null;
-    if (!this.isAsleep) this.markHome().catch(() => undefined);
+    if (!this.isAsleep && !this.isLocked) this.markHome().catch(() => undefined);
     this.options.events.changed();
     return Promise.resolve();
   }
@@ -326,9 +330,7 @@ export class GrblMachine implements Machine {
     await this.recovered(status);
     // Its greeting may have been lost.
     if (this.isLocked || !hasRestarted(status)) return true;
-    // A pen that is up counts as down rather than the reverse: it must not be pushed into the paper.
-    await this.pen.countFrom(penUp === true, settings);
-    return penUp !== null || this.pen.liftOf(machineOf(settings)).kind !== "z";
+    return this.pen.countFrom(penUp, settings);
   }
 
   /** Without homing, a lock has no other purpose than to be acknowledged. */
@@ -402,9 +404,8 @@ export class GrblMachine implements Machine {
     if (lift.kind === "z" && hasRestarted(status)) {
       // It counts from 0 wherever the pen is, so the pen is lifted by its travel.
       if (!before) return;
-      const penUp = before.penUp === true;
-      await this.pen.countFrom(penUp, settings);
-      if (penUp) this.pen.setState(true);
+      await this.pen.countFrom(before.penUp, settings);
+      if (before.penUp === true) this.pen.setState(true);
       else await this.movePen(true, settings);
       return;
     }
@@ -428,8 +429,8 @@ export class GrblMachine implements Machine {
     };
   }
 
-  /** A Grbl that was not restarted still counts from the same place. */
-  private remember(status: Status, before: PenBefore | null, profile: MachineProfile): void {
+  /** A Grbl that was not restarted still counts from the same place. Returns whether it does. */
+  private remember(status: Status, before: PenBefore | null, profile: MachineProfile): boolean {
     const { foundModes, settings } = this.session;
     const memory = hasRestarted(status) ? null : (before?.memory as GrblMemory | null | undefined);
     this.pen.zeroMm = memory?.penZeroMm ?? null;
@@ -437,6 +438,7 @@ export class GrblMachine implements Machine {
     this.machineAt = status.machineAt;
     this.run = memory === null || memory === undefined ? runByMark(foundModes) : memory.run;
     this.options.events.changed();
+    return Boolean(memory) || this.home !== null;
   }
 
   private async homeIsHere(): Promise<Axes> {

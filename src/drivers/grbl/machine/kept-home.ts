@@ -14,6 +14,7 @@ import type { BoardSettings } from "./board-settings.js";
 export interface GrblMemory {
   readonly home: Axes | null;
   readonly penZeroMm: number | null;
+  readonly isHeightUnsure: boolean;
   /** What the next connection would find if it was lost in motion; undefined: it was not lost at rest. */
   readonly foundMidPlot: FoundMidPlot | null | undefined;
   /** `keptRun` of the unfinished plot that moved the carriage last; null if something else did. */

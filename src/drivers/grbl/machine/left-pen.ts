@@ -3,6 +3,7 @@ import type { PenSettings } from "../../../settings/pen.js";
 import type { PenBefore } from "../../driver.js";
 import type { PenLift } from "../model/pen-lift.js";
 import { servoSignalOf } from "../protocol.js";
+import type { GrblMemory } from "./kept-home.js";
 
 /** Share of the pen's travel below its lowest height up to which a height counts as one of the pen's. */
 const BELOW = 0.25;
@@ -13,6 +14,16 @@ export interface LeftPen {
   readonly isUp: boolean;
   /** It may rest on the paper. */
   readonly mustLift: boolean;
+}
+
+/**
+ * Whether nothing tells from which height a Z axis counts. `isKept`: the Grbl has not been reset since an earlier connection
+ * or process.
+ */
+export function isHeightLost(lift: PenLift, before: PenBefore | null, isKept: boolean): boolean {
+  const wasUnsure = (before?.memory as GrblMemory | null | undefined)?.isHeightUnsure === true;
+  const isKnown = isKept || (before !== null && before.penUp !== null);
+  return lift.kind === "z" && (wasUnsure || !isKnown);
 }
 
 /**

@@ -214,7 +214,7 @@ async function plotWith(row: Row, face: FaceName, ordinary: MachineProfile, atS:
   const { connection, xMm, penUp } = driver.state;
   const isUp = isUpAtEnd && board.state().penUp && penUp === true;
   if (xMm === null) board.pushHome();
-  if (ended.includes("The height of the pen is lost")) board.pushPen(GRBL.controller.penUpZMm);
+  if (ended.includes("The height of the pen is lost")) board.pushPen(0);
   if (ended === "held") {
     await world.run(run.resume());
     await world.run(run.finished, 60);

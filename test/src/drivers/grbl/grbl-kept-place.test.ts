@@ -58,6 +58,7 @@ async function interrupted(
     board.restart();
     // As the person is asked to.
     board.pushHome();
+    board.pushPen(0);
   }
   const last = how === "unplugged" ? journal.at(-1)! : atKill;
   const next = how === "unplugged" ? first : await plotterOn(board, world, machineOf(settings));
