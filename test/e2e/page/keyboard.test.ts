@@ -66,6 +66,12 @@ describe("the keyboard", () => {
       .newContext({ viewport: { width: 1440, height: 900 } });
     const fresh = await context.newPage();
     await fresh.goto(page.url());
+    // The page learns of the plot then, and opens Watch.
+    await fresh
+      .getByRole("banner")
+      .getByRole("status")
+      .filter({ hasText: /Plotting|Ready|Virtual/ })
+      .waitFor();
     await fresh.getByRole("group", { name: "View" }).getByRole("button", { name: "Prepare" }).click();
     await fresh.getByRole("region", { name: "Or try a sample" }).getByRole("button").first().focus();
     await fresh.keyboard.press("Enter");

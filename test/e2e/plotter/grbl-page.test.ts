@@ -68,19 +68,21 @@ describe("a plotter with a Grbl", () => {
 
   describe("in the wizard", () => {
     const wizard = (): Locator => page.getByRole("dialog", { name: "Set up a plotter" });
-    const button = (name: string): Locator => wizard().getByRole("button", { name, exact: true });
-    const press = (name: string): Promise<void> => button(name).click();
-    const moved = async (name: string): Promise<void> => {
-      const answered = page.waitForResponse((response) => response.request().method() === "POST");
+    const press = (name: string): Promise<void> =>
+      wizard().getByRole("button", { name, exact: true }).click();
+    /** Presses, and waits for the end of that move. */
+    const move = async (name: string, route: string): Promise<void> => {
+      const answered = page.waitForResponse(
+        (response) => response.request().method() === "POST" && response.url().endsWith(route),
+      );
       await press(name);
       expect((await answered).status()).toBe(200);
-      await button(name).and(page.locator(":enabled")).waitFor();
     };
 
     it("is not asked about motors, which the Grbl mixes by itself", async () => {
       await page.getByRole("button", { name: "Set up a plotter…" }).click();
       await press("Next");
-      await press("It is in the middle");
+      await move("It is in the middle", "/set-home");
       await wizard().getByText("a CoreXY needs firmware for CoreXY").waitFor();
       expect(
         await wizard()
@@ -88,16 +90,16 @@ describe("a plotter with a Grbl", () => {
           .count(),
       ).toBe(0);
       await expectSound();
-      await moved("Move 20 mm to the right");
+      await move("Move 20 mm to the right", "/jog");
       await press("Right");
-      await moved("Move 20 mm nearer");
+      await move("Move 20 mm nearer", "/jog");
       await press("Nearer to me");
       await press("Yes, both are right");
-      await press("Set home here");
+      await move("Set home here", "/set-home");
     });
 
     it("says what to set in the Grbl, which counts the steps, if the square has a wrong size", async () => {
-      await moved("Draw the square");
+      await move("Draw the square", "/square");
       await wizard().getByText("That is the right size.").waitFor();
       await wizard().getByLabel("Measured width").fill("98");
       await wizard().getByText("Multiply $101 by 1.0204, and").waitFor();
@@ -109,7 +111,7 @@ describe("a plotter with a Grbl", () => {
 
     it("sets how the pen is lifted, and tries it", async () => {
       await wizard().getByLabel("Z with the pen down", { exact: true }).fill("6");
-      await moved("Lower and lift the pen");
+      await move("Lower and lift the pen", "/cycle-pen");
       expect((await board.report()).state.penUp).toBe(true);
       await expectSound();
       await press("Next");
