@@ -196,7 +196,7 @@ export {
   usbIdsOf,
   usesSetting,
 } from "./drivers/registry.js";
-export { allDrivers, driverOf } from "./drivers/connecting.js";
+export { allDrivers, driverOf, type KnownDriver } from "./drivers/connecting.js";
 export { scaledClock } from "./drivers/transport.js";
 export type { EbbController } from "./drivers/ebb/protocol/ebb-controller.js";
 export { MIN_RUN } from "./drivers/driver.js";

@@ -1,9 +1,9 @@
 /** Asks the devices on serial ports what they are. Their USB chips do not always tell. */
 import { PlotwrightError, type Clock } from "../../src/index.js";
-import { allDrivers, type Driver } from "../../src/internal.js";
+import { allDrivers, type KnownDriver } from "../../src/internal.js";
 import type { Devices, FoundBoard } from "./devices.js";
 
-interface AskParts {
+export interface AskParts {
   readonly devices: Devices;
   readonly clock: Clock;
 }
@@ -11,6 +11,8 @@ interface AskParts {
 export interface PortAnswer {
   /** Name and version, such as "Grbl 1.1h"; null: nothing that plotwright knows answers. */
   readonly answer: string | null;
+  /** The `kind` of the controller that answers. */
+  readonly controller: string | null;
   /** Why the port could not be opened; null if it could. */
   readonly fault: string | null;
 }
@@ -20,19 +22,19 @@ export type AskedPort = FoundBoard & PortAnswer;
 /** By one driver after the other, until one of their boards answers. */
 export async function askPort(
   path: string,
-  drivers: readonly Driver[],
+  drivers: readonly KnownDriver[],
   { devices, clock }: AskParts,
 ): Promise<PortAnswer> {
-  for (const driver of drivers) {
+  for (const { kind, driver } of drivers) {
     try {
       const answer = await driver.ask(await devices.open(path), clock);
-      if (answer !== null) return { answer, fault: null };
+      if (answer !== null) return { answer, controller: kind, fault: null };
     } catch (error) {
       if (!(error instanceof PlotwrightError)) throw error;
-      return { answer: null, fault: error.message };
+      return { answer: null, controller: null, fault: error.message };
     }
   }
-  return { answer: null, fault: null };
+  return { answer: null, controller: null, fault: null };
 }
 
 /**
@@ -43,9 +45,9 @@ export async function askPorts(
   parts: AskParts,
   isTaken: (path: string) => boolean = () => false,
 ): Promise<readonly AskedPort[]> {
-  const ports = new Map<string, { readonly board: FoundBoard; readonly drivers: Driver[] }>();
-  for (const { driver, ids } of await allDrivers()) {
-    for (const board of await parts.devices.find(ids)) {
+  const ports = new Map<string, { readonly board: FoundBoard; readonly drivers: KnownDriver[] }>();
+  for (const driver of await allDrivers()) {
+    for (const board of await parts.devices.find(driver.ids)) {
       if (isTaken(board.path)) continue;
       const port = ports.get(board.path) ?? { board, drivers: [] };
       port.drivers.push(driver);

@@ -13,6 +13,7 @@ import {
 } from "../../src/internal.js";
 import { askPort } from "./ask-ports.js";
 import type { Devices, FoundBoard } from "./devices.js";
+import { boardOf, OtherBoardError, type OtherBoards } from "./other-board.js";
 
 interface PlotterConnectOptions {
   readonly driver: Driver;
@@ -25,6 +26,8 @@ interface PlotterConnectOptions {
   readonly devices: Devices;
   /** Ports that "auto" skips. */
   readonly isTaken?: ((path: string) => boolean) | undefined;
+  /** "auto" with no board of the controller: names one of another. Default: it does not look for any. */
+  readonly otherBoards?: OtherBoards | undefined;
   /** "auto" with no board on USB: true for the virtual one, false to reject with `no-board`. */
   readonly virtualIfNone: boolean;
   /** A board has been connected before: the virtual one is never used in its place. */
@@ -52,6 +55,8 @@ export interface ConnectedMachine {
  */
 export async function connect(options: PlotterConnectOptions): Promise<ConnectedMachine> {
   const path = options.device === "auto" ? await firstBoard(options) : options.device;
+  const other = path === null ? await options.otherBoards?.first(usbIdsOf(options.controller)) : null;
+  if (other) throw new OtherBoardError(other);
   if (path === null && (options.hadBoard || !options.virtualIfNone)) throw notFound(options);
   if (path === null || path === "virtual") {
     const machine = await identified(options.virtualMachine().transport(), options);
@@ -69,18 +74,13 @@ async function otherController(
   error: unknown,
   path: string,
   options: PlotterConnectOptions,
-): Promise<PlotwrightError | null> {
+): Promise<OtherBoardError | null> {
   const isNotIdentified =
     error instanceof PlotwrightError && (error.code === "no-board" || error.code === "board-timeout");
   if (!isNotIdentified || options.hadBoard) return null;
-  const others = (await allDrivers()).map(({ driver }) => driver).filter((one) => one !== options.driver);
-  const { answer } = await askPort(path, others, options);
-  if (answer === null) return null;
-  return new PlotwrightError(
-    "no-board",
-    `${answer} answers on this port, but the model has another controller: choose your plotter's with --machine.`,
-    { cause: error },
-  );
+  const others = (await allDrivers()).filter(({ driver }) => driver !== options.driver);
+  const board = boardOf(await askPort(path, others, options));
+  return board && new OtherBoardError(board, { cause: error });
 }
 
 /** A port can be used without it, so errors are ignored. */
@@ -93,13 +93,16 @@ async function serialNumberAt(
 }
 
 async function firstBoard(options: PlotterConnectOptions): Promise<string | null> {
-  const { controller, driver, devices, isTaken = () => false, clock } = options;
+  const { controller, devices, isTaken = () => false } = options;
   const free = async (ids: readonly UsbId[]): Promise<readonly FoundBoard[]> =>
     ids.length === 0 ? [] : (await devices.find(ids)).filter(({ path }) => !isTaken(path));
   const [certain] = await free(controller.usbIds);
   if (certain) return certain.path;
-  for (const { path } of await free(controller.candidateIds)) {
-    const { answer } = await askPort(path, [driver], { devices, clock });
+  const candidates = await free(controller.candidateIds);
+  if (candidates.length === 0) return null;
+  const own = (await allDrivers()).filter(({ driver }) => driver === options.driver);
+  for (const { path } of candidates) {
+    const { answer } = await askPort(path, own, options);
     if (answer !== null) return path;
   }
   return null;
@@ -113,6 +116,8 @@ function identified(transport: Transport, options: PlotterConnectOptions): Promi
 /** Adds the device to the message of an error. */
 function atDevice(error: unknown, device: string): unknown {
   if (!(error instanceof PlotwrightError)) return error;
+  if (error instanceof OtherBoardError)
+    return new OtherBoardError(error.board, { cause: error.cause }, device);
   return new PlotwrightError(error.code, `${device}: ${error.message}`, { cause: error });
 }
 

@@ -9,7 +9,7 @@ import type { PlotterRow } from "../storage.js";
 /** Id of the first plotter. It is stored with every job, so it must never change. */
 export const FIRST_PLOTTER = "main";
 
-interface NamedPlotterOptions extends Pick<PlotterOptions, "clock" | "devices"> {
+interface NamedPlotterOptions extends Pick<PlotterOptions, "clock" | "devices" | "otherBoards"> {
   readonly virtualSpeed?: number | undefined;
   readonly virtualSprings?: Springs | undefined;
   /** Whether another plotter uses this port. */

@@ -37,6 +37,7 @@ import {
   noConsole,
   notStarted,
   penRested,
+  stateAfter,
   UNKNOWN,
   welcome,
   type PlotterOptions,
@@ -252,7 +253,7 @@ export class PlotterConnection {
     this.supply.stop();
     this.penBefore = null;
     this.machine = this.connection = this.virtual = null;
-    this.setState({ connection: "connecting", message: null, ...UNKNOWN });
+    this.setState({ connection: "connecting", message: null, otherBoard: null, ...UNKNOWN });
     await connection?.machine.close().catch(() => undefined);
     virtual?.close();
     await this.startConnecting();
@@ -272,12 +273,9 @@ export class PlotterConnection {
       const machine = machineOf(this.settings);
       const driver = await driverOf(machine);
       const connection = await connect({
-        device: this.options.device,
-        devices: this.options.devices,
-        isTaken: this.options.isTaken,
+        ...this.options,
         virtualIfNone: this.options.virtualIfNone !== false,
         hadBoard: this.hadSerial,
-        clock: this.clock,
         speed: this.options.virtualSpeed ?? 1,
         driver,
         controller: controllerOf(machine),
@@ -326,6 +324,7 @@ export class PlotterConnection {
       kind: connection.kind,
       device: connection.device,
       connection: "idle",
+      otherBoard: null,
       boardName: machine.name ?? null,
       boardSerialNumber: connection.serialNumber,
       firmware: machine.firmware,
@@ -350,8 +349,7 @@ export class PlotterConnection {
     this.connection = null;
     // A held run does not notice the lost board by itself.
     this.run?.fail(error);
-    const connection = error.code === "no-board" ? "absent" : "fault";
-    this.setState({ connection, message: error.message, ...UNKNOWN });
+    this.setState(stateAfter(error));
     this.cancelRetry?.();
     this.cancelRetry = this.clock.after(RECONNECT_S, () => void this.startConnecting());
   }

@@ -50,6 +50,8 @@ export interface PlotterPort {
 
 /** A plotter that is stored by the server and that the user can rename. */
 export interface ManagedPlotter extends PlotterPort {
+  /** Connects now: it is not connected yet, or has lost its board. Resolves when it is known whether that works. */
+  start(): Promise<void>;
   rename(name: string): void;
   /** Sets the model, with the plotter's settings; null: not set. The board stays connected and home stays the same. */
   useMachine(machine: string | null, settings: PlotSettings): void;

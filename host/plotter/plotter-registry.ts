@@ -182,15 +182,19 @@ export class PlotterRegistry {
     return this.rows.get(id);
   }
 
-  /** Closes the plotter and connects it again. Throws `busy` while a job is being plotted. */
+  /** Has the plotter search for its board again. Throws `busy` while a job is being plotted. */
   reconnect(id: string, use: PlotterUse): Promise<Plotter> {
     return this.inTurn(async () => {
       const { row, port } = this.find(id);
       if (use.isPlotterBusy(id)) {
         throw new PlotwrightError("busy", "A job is on the plotter. Cancel it first, or wait until it ends.");
       }
-      await port.close();
-      if (!this.isClosed) this.open(row);
+      // One whose board is lost still knows what the board may have forgotten, such as how high its pen is.
+      if (port.snapshot().connection === "absent") await port.start();
+      else {
+        await port.close();
+        if (!this.isClosed) this.open(row);
+      }
       this.announce();
       return this.find(id).port.snapshot();
     });

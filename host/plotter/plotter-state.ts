@@ -3,6 +3,7 @@ import { PlotwrightError, type Clock } from "../../src/index.js";
 import type { Springs } from "../../src/internal.js";
 import type { Plotter, PlotSettings } from "../../src/schema/index.js";
 import type { Devices } from "./devices.js";
+import { OtherBoardError, type OtherBoards } from "./other-board.js";
 import type { PlotProgress } from "./plotter-port.js";
 
 export interface PlotterOptions {
@@ -14,6 +15,8 @@ export interface PlotterOptions {
   readonly virtualIfNone?: boolean | undefined;
   /** Whether "auto" must skip a port, because another plotter uses it. */
   readonly isTaken?: ((path: string) => boolean) | undefined;
+  /** Finds what "auto" can't connect, for a program whose ports the user has chosen. Default: it is not looked for. */
+  readonly otherBoards?: OtherBoards | undefined;
   /**
    * How many times faster than real time a virtual board runs, also one that `device` leads to. Default 1.
    */
@@ -44,6 +47,7 @@ export const UNKNOWN = {
 export function initialState(device: string): PlotterState {
   const isPath = device !== "virtual" && device !== "auto";
   return {
+    otherBoard: null,
     kind: isPath ? "serial" : "virtual",
     device: isPath ? device : null,
     connection: "connecting",
@@ -53,6 +57,18 @@ export function initialState(device: string): PlotterState {
     firmware: null,
     emergencyStopMs: null,
     message: null,
+    ...UNKNOWN,
+  };
+}
+
+/** What changes when there is no connection, because of the error. */
+export function stateAfter(error: PlotwrightError): Partial<PlotterState> {
+  const otherBoard = error instanceof OtherBoardError ? error.board : null;
+  return {
+    connection: error.code === "no-board" ? "absent" : "fault",
+    message: error.message,
+    otherBoard,
+    ...(otherBoard ? { kind: "serial" } : {}),
     ...UNKNOWN,
   };
 }

@@ -15,12 +15,17 @@ const DRIVERS: ByKind<() => Promise<Driver>> = {
 /** The driver that connects to a machine. Rejects with `bad-setting` for an unknown controller. */
 export const driverOf = async (machine: MachineProfile): Promise<Driver> => ofKind(DRIVERS, machine)();
 
-/** All drivers, with the USB devices that may be their boards. */
-export const allDrivers = (): Promise<
-  readonly { readonly driver: Driver; readonly ids: readonly UsbId[] }[]
-> =>
+/** A driver, its controller's `kind`, and the USB devices that may be its boards. */
+export interface KnownDriver {
+  readonly kind: string;
+  readonly driver: Driver;
+  readonly ids: readonly UsbId[];
+}
+
+export const allDrivers = (): Promise<readonly KnownDriver[]> =>
   Promise.all(
     (Object.keys(DRIVERS) as (keyof typeof DRIVERS)[]).map(async (kind) => ({
+      kind,
       driver: await DRIVERS[kind](),
       ids: usbIdsOf(CONTROLLERS[kind]),
     })),

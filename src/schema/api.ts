@@ -122,6 +122,8 @@ export const plotterSchema = z.object({
   emergencyStopMs: z.number().nullable().default(null),
   /** What is wrong and what to do, or null. */
   message: z.string().nullable(),
+  /** A board that the model does not fit: its name and version, and the kind of its controller. Null: none was found. */
+  otherBoard: z.object({ answer: z.string(), controller: z.string() }).nullable().default(null),
   penUp: z.boolean().nullable(),
   /** The pen is still on its way up or down. */
   penMoving: z.boolean().default(false),

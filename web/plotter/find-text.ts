@@ -6,5 +6,6 @@ export const findText = {
   noAnswer: "No answer",
   use: "Use",
   useNamed: (answer: string, path: string) => `Use the ${answer} at ${path}`,
+  whichModel: (answer: string) => `Models for the ${answer}`,
   nothing: "Nothing on USB that may be a plotter: check the cable and the plotter’s power.",
 };

@@ -96,7 +96,9 @@ export const TRACE_FRAME: PageAction = {
 /** A plotter that the page itself opens the port of. */
 const mayConnect = ({ store, backend: { features } }: Page): boolean => {
   const state = store.getState();
-  return features.asksForPort && features.whyNoPort === null && currentPlotter(state)?.kind === "virtual";
+  const plotter = currentPlotter(state);
+  const isSought = plotter?.kind === "virtual" || plotter?.connection === "absent";
+  return features.asksForPort && features.whyNoPort === null && isSought;
 };
 export const CONNECT: PageAction = {
   id: "connect",

@@ -16,7 +16,7 @@ describe("a Grbl on a port that is not chosen yet", () => {
     const devices: AskedDevice[] = [
       { ...device, path: "/dev/ttyUSB7", answer: null },
       { ...device, path: "/dev/ttyUSB8", answer: null, fault: "Another program is using /dev/ttyUSB8." },
-      { ...device, path: board.path, answer: "Grbl 1.1h" },
+      { ...device, path: board.path, answer: "DrawCore 2.09" },
     ];
     await test.page.route("**/api/v1/devices/ask", (route) => route.fulfill({ json: { devices } }));
   });
@@ -43,25 +43,26 @@ describe("a Grbl on a port that is not chosen yet", () => {
     expect(await ports.getByRole("listitem").allInnerTexts()).toEqual([
       "No answer\n/dev/ttyUSB7",
       "No answer\nAnother program is using /dev/ttyUSB8.",
-      `Grbl 1.1h\n${board.path}\nUse`,
+      `DrawCore 2.09\n${board.path}\nUse`,
     ]);
     expect(await ports.getByRole("button").count()).toBe(1);
   });
 
   it("is taken, and named while the model is that of another controller", async () => {
     await panel()
-      .getByRole("button", { name: `Use the Grbl 1.1h at ${board.path}` })
+      .getByRole("button", { name: `Use the DrawCore 2.09 at ${board.path}` })
       .click();
-    await panel().getByText("Grbl 1.1h answers on this port").waitFor();
+    await panel().getByText("DrawCore 2.09 answers on this port").waitFor();
     expect((await plotter()).device).toBe(board.path);
   });
 
   it("is connected when its model is chosen, and no longer sought", async () => {
-    await panel().getByLabel("All models").selectOption({ label: "iDraw H A3" });
+    const fitting = panel().getByRole("group", { name: "Models for the DrawCore 2.09" });
+    await fitting.getByRole("button", { name: "iDraw H A3" }).click();
     await expect.poll(plotter, { timeout: 20_000 }).toMatchObject({
       connection: "idle",
       machine: "idraw-h-a3",
-      firmware: "Grbl 1.1h",
+      firmware: "DrawCore 2.09",
     });
     await find().waitFor({ state: "detached" });
   });

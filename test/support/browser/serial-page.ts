@@ -4,11 +4,14 @@
  */
 import type { Browser, BrowserContext, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
+import type { VirtualMachine } from "../../../src/internal.js";
 import { ENDED_STATES, jobSchema, type Job } from "../../../src/schema/index.js";
 import { storedRecords } from "./backends.js";
 import { launchBrowser, PLAIN } from "./browser.js";
 import { compareDrawn } from "../drawings/drawn-truth.js";
+import type { FakeSerial } from "./fake-serial.js";
 import { FAKE_SERIAL_SCRIPT } from "./fake-serial-script.js";
+import { grblDevice, type GrblDevice, type GrblOptions } from "./grbl-device.js";
 import { dropFile, plotBar, statusCard, waitForPlan } from "./page-actions.js";
 import { startStaticApp, type StaticApp } from "./static-app.js";
 import { strokesOf } from "./svg-strokes.js";
@@ -58,8 +61,19 @@ export class SerialPages {
     await this.app.close();
   }
 
-  get board(): StaticApp["serial"]["board"] {
-    return this.app.serial.board;
+  get serial(): FakeSerial {
+    return this.app.serial;
+  }
+
+  get board(): FakeSerial["board"] {
+    return this.serial.board;
+  }
+
+  /** A Grbl in place of the EiBotBoard. */
+  plugGrbl(options: Omit<GrblOptions, "speed">): GrblDevice {
+    const device = grblDevice({ ...options, speed: this.boardSpeed });
+    this.serial.plug(device);
+    return device;
   }
 
   async openPage(): Promise<Page> {
@@ -70,11 +84,16 @@ export class SerialPages {
     return page;
   }
 
+  /** Allows the page to use what is plugged in, and waits until it is connected. */
+  async connect(page: Page): Promise<void> {
+    await page.getByRole("button", { name: "Connect a plotter…" }).click();
+    await this.untilConnected(page);
+  }
+
   /** Connects the plotter and plots the drawing on the paper. */
   async plot(page: Page): Promise<void> {
     await waitForPlan(page);
-    await page.getByRole("button", { name: "Connect a plotter…" }).click();
-    await this.untilConnected(page);
+    await this.connect(page);
     await plotBar(page).getByRole("button", { name: "Plot", exact: true }).click();
   }
 
@@ -85,7 +104,7 @@ export class SerialPages {
   }
 
   /** A port that the page may use is found by itself. */
-  private async untilConnected(page: Page): Promise<void> {
+  async untilConnected(page: Page): Promise<void> {
     await page.getByRole("button", { name: "Connect a plotter…" }).waitFor({ state: "detached" });
     await expect.poll(() => this.app.serial.isOpen, { timeout: PATIENCE_MS }).toBe(true);
   }
@@ -105,19 +124,24 @@ export class SerialPages {
     expect((await storedJob(page)).state).toBe("done");
   }
 
-  /** Lengths of the lines that are missing on the paper, and that are drawn twice, mm. */
-  async combFaults(
-    page: Page,
-    lines: number,
-  ): Promise<{ gapMm: number; overlapMm: number; isGood: boolean }> {
+  combFaults(page: Page, lines: number): Promise<DrawnFaults> {
+    return this.drawnFaults(page, comb(lines), this.board);
+  }
+
+  /** Compares what the machine has drawn with the drawing of the only job. */
+  async drawnFaults(page: Page, svg: string, machine: Pick<VirtualMachine, "drawn">): Promise<DrawnFaults> {
     const { settings } = await storedJob(page);
-    const { gapMm, overlapMm, awayMm } = compareDrawn(
-      await strokesOf(comb(lines), settings),
-      this.board.drawn(),
-    );
+    const { gapMm, overlapMm, awayMm } = compareDrawn(await strokesOf(svg, settings), machine.drawn());
     expect(awayMm).toBeLessThan(MAX_OFF_MM);
     return { gapMm, overlapMm, isGood: gapMm < MAX_OFF_MM && overlapMm < MAX_OFF_MM };
   }
+}
+
+/** Lengths of the lines that are missing on the paper, and that are drawn twice, mm. */
+interface DrawnFaults {
+  readonly gapMm: number;
+  readonly overlapMm: number;
+  readonly isGood: boolean;
 }
 
 /**

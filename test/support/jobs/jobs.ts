@@ -53,6 +53,7 @@ export const makePlotter = (id: string, more: Partial<Plotter> = {}): Plotter =>
   kind: "virtual",
   device: null,
   connection: "idle",
+  otherBoard: null,
   firmware: "3.0.3",
   message: null,
   penUp: true,

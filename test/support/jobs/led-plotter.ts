@@ -145,6 +145,10 @@ export class LedPlotter implements ManagedPlotter {
     return makePlotter(this.id, { name: this.name, connection, firmware, xMm, heightUnsure });
   }
 
+  start(): Promise<void> {
+    return Promise.resolve();
+  }
+
   settled(): Promise<void> {
     return Promise.resolve();
   }

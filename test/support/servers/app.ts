@@ -94,7 +94,7 @@ export async function startApp(
       Promise.resolve(
         (options.boards ?? [])
           .filter(({ path }) => !isTaken(path))
-          .map((board) => ({ ...board, answer: "Grbl 1.1h", fault: null })),
+          .map((board) => ({ ...board, answer: "Grbl 1.1h", controller: "grbl", fault: null })),
       ),
     withMachine: (settings) => settings,
     open: (row) => {

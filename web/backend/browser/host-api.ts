@@ -55,6 +55,8 @@ export const ownMethods = ({ queue, registry }: Pick<BrowserParts, "queue" | "re
     else await registry.patch(id, { device: "auto" }, queue);
     const plotter = findPlotter(registry.ports, id);
     await plotter.settled();
+    // On the virtual plotter a chosen port would be ignored silently.
+    if (plotter.snapshot().kind === "virtual") throw new PlotwrightError("no-board", browserText.noneAnswers);
     return plotter.snapshot();
   },
   /** For the browser's dialog of ports. The host has them, so that the page does not load the drivers. */

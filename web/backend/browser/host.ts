@@ -13,6 +13,7 @@ import { CustomMachines } from "../../../host/custom-machines.js";
 import { FIRST_PLOTTER, openNamedPlotter } from "../../../host/plotter/named-plotter.js";
 import type { Requester } from "../../../host/planning/lane.js";
 import { askPorts } from "../../../host/plotter/ask-ports.js";
+import { OtherBoards } from "../../../host/plotter/other-board.js";
 import { PlotterRegistry } from "../../../host/plotter/plotter-registry.js";
 import { JobQueue } from "../../../host/queue/job-queue.js";
 import type { LiveJob } from "../../../host/queue/live-jobs.js";
@@ -100,6 +101,7 @@ export async function openHost(start: WorkerStart, page: HostPage): Promise<Host
         log,
         clock,
         devices,
+        otherBoards: new OtherBoards({ devices, clock }, isTaken),
       }),
   });
   const drawings = drawingRecords(db);

@@ -22,5 +22,7 @@ export const browserText = {
   nothingStored:
     "The browser stores nothing for this site, as in some private windows or where site data is blocked. You can plot, but queue, history and settings are lost when this tab is closed.",
   noneChosen: "No plotter was chosen. Plug it in, switch it on, and choose it in the list.",
+  noneAnswers:
+    "No plotter answers on the port that you chose: check its cable and its power, and close other programs that use it. Then choose it again.",
   sampleMissing: (name: string) => `The sample ${name} did not load. Are you offline?`,
 };
