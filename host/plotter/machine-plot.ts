@@ -78,7 +78,7 @@ export class MachinePlot implements RunningPlot {
     this.settings = new LiveSettings(settings);
     this.stops = new PenStops(this.strokes, settings, start.from ?? null);
     const { live } = start;
-    const run = newRun();
+    const run = newRun(machine);
     this.stream = machine.startPlayback({
       run,
       get strokes() {
@@ -424,7 +424,13 @@ const inWhole = (live: LiveStrokes, { journal, noted }: PlotStart): Pick<PlotSta
 });
 
 /** A number that most probably no other run has, also none of another computer. */
-const newRun = (): number => MIN_RUN + Math.floor(Math.random() * MIN_RUN);
+function newRun({ foundMidPlot }: Pick<Machine, "foundMidPlot">): number {
+  let run: number;
+  // A machine that keeps only a part of the number must tell it from that of the plot in which it was left.
+  do run = MIN_RUN + Math.floor(Math.random() * MIN_RUN);
+  while (foundMidPlot?.isOfRun(run));
+  return run;
+}
 
 const notLive = (name: string): PlotwrightError =>
   new PlotwrightError(
