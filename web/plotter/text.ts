@@ -51,7 +51,7 @@ export const plotterText = {
   },
 };
 
-/** Texts of the pen's heights, home and the first plot. */
+/** Texts of the pen's heights and home. */
 export const penText = {
   up: "Pen up",
   down: "Pen down",
@@ -63,27 +63,6 @@ export const penText = {
     "Put paper under the pen and lower this until the tip just marks it. 100 % is Height up, 0 % is Height down: set it again when you change them.",
   testLine: "Draw a test line",
   testLineHint: "A 2 cm line, half a centimetre from the carriage",
-  firstPlot: "First plot with this plotter",
-  steps: {
-    findsHome: "Clear its way. Home finds the corner.",
-    home: "Motors off. Push the carriage by hand into its home corner.",
-    homeOfArm: "Motors off. Push the carriage by hand into its home corner: at the back, on the left.",
-    heights: "Move the sliders until the pen is well clear of the paper when up, and draws when down.",
-    mark: "Put paper under the pen and draw a line. Too thin or broken: lower Height down.",
-  },
-  whichPlotter: "Which plotter is this?",
-  otherModels: "iDraw, or another one with a Grbl:",
-  allModels: "All models",
-  chooseModel: "Choose…",
-  inCorner: "The carriage is in its corner",
-  modelNamed: (name: string) => `It is a ${name}`,
-  otherModel: "Another model…",
-  homeDone: "The carriage is home.",
-  homeAgain: "Home again…",
-  plotStep: "Press Plot.",
-  drawingStep: "Drop a drawing on the sheet, or choose a sample. Then press Plot.",
-  hide: "Hide",
-  hideHint: "Hide these steps",
 };
 
 /** Why the plotter can't be moved now. */

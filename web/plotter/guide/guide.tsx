@@ -9,9 +9,10 @@ import { Button } from "../../ui/button.js";
 import { Heights } from "../hand/heights.js";
 import { HOME, isMovingByHand, MOTORS_OFF, STOP_MOVE, TEST_LINE } from "../plotter-actions.js";
 import { ModelSelect } from "../model-select.js";
-import { penText as words } from "../text.js";
+import { penText } from "../text.js";
 import { MachinePicture } from "./machine-picture.js";
 import { ModelCards } from "./model-cards.js";
+import { guideText as words } from "./text.js";
 import "./guide.css";
 
 const STEPS = ["model", "home", "heights", "mark"] as const;
@@ -74,7 +75,7 @@ export const Guide = () => {
           <ActionButton
             action={thenNote(TEST_LINE, { kind: "test-line" }, () => note("mark"))}
             className="test-line"
-            hint={words.testLineHint}
+            hint={penText.testLineHint}
           />,
         )}
         {hasModel && (
