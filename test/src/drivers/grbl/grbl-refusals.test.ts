@@ -84,7 +84,7 @@ describe.each(["1.1", "0.9", "grblHAL", "FluidNC", "DrawCore"] as const)("a plot
           isUp: true,
         });
         if (xMm === null) board.pushHome();
-        if (ended.includes("The height of the pen is lost")) board.pushPen(GRBL.controller.penUpZMm);
+        if (driver.state.heightUnsure) board.pushPen(0);
         if (ended !== "done") {
           expect(ended).toMatch(/^board-error: The Grbl (refused \S+ with error:|has stopped with ALARM:)/);
           const { place: from, received } = journal.at(-1) ?? {};
