@@ -409,11 +409,12 @@ export class GrblMachine implements Machine {
       else await this.movePen(true, settings);
       return;
     }
-    const left = leftPen(lift, status.at[2], this.session.modes, settings.pen, before);
+    const run = this.home && this.run;
+    const left = leftPen(lift, status.at[2], this.session.modes, settings.pen, before, run !== null);
     const memory = (before?.memory ?? {}) as Partial<GrblMemory>;
-    if (this.home && this.run !== null)
+    if (run !== null)
       this.foundMidPlot =
-        memory.foundMidPlot === undefined ? foundMidPlot(left.isUp, this.run) : memory.foundMidPlot;
+        memory.foundMidPlot === undefined ? foundMidPlot(left.isUp, run) : memory.foundMidPlot;
     if (left.mustLift) await this.movePen(true, settings);
     else if (left.isUp) this.pen.setState(true);
   }

@@ -11,7 +11,14 @@ import type { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { compareDrawn } from "../../../support/drawings/drawn-truth.js";
 import { ROUND_DRAWING } from "../../../support/drawings/round-drawing.js";
 import { FAULT_DRAWING } from "../../../support/plots/faulty-plots.js";
-import { newPlotter, plotterOn, SETTINGS, settingsWith } from "../../../support/plots/grbl-plotter.js";
+import {
+  machineWith,
+  newPlotter,
+  plotterOn,
+  SETTINGS,
+  settingsWith,
+} from "../../../support/plots/grbl-plotter.js";
+import { GRBL_LINES } from "../../../support/machines/machine.js";
 import { seeded } from "../../../support/plots/live-plot.js";
 import { layeredStrokes, LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js";
 import { cases } from "../../../support/runs/full-run.js";
@@ -20,6 +27,8 @@ import { startAfter } from "../../../support/plots/start-after.js";
 const MOST_MM = 0.05;
 /** The drawing takes longer than that. */
 const PLOT_S = 9;
+/** The same with a pen that own lines move. */
+const OWN_LINES_S = 9.8;
 /** What a Grbl's buffers hold is drawn by then. */
 const REST_S = 15;
 const FACES: readonly VirtualGrblOptions[] = [
@@ -39,7 +48,7 @@ async function interrupted(
   strokes = FAULT_DRAWING,
   settings = settingsWith(options),
 ) {
-  const { world, board, ...first } = await newPlotter(options);
+  const { world, board, ...first } = await newPlotter(options, machineOf(settings));
   const journal: JournalEntry[] = [];
   const record = (entry: JournalEntry): void => void journal.push(entry);
   const run = await first.begin(new LocalPlanner(strokes), { journal: { record } }, settings);
@@ -191,6 +200,27 @@ describe.each(FACES)("a plot of short lines on $face that was resumed", (options
           isOnce: true,
         });
       }
+    },
+  );
+});
+
+describe.each(FACES)("a pen that own lines move, on $face", (options) => {
+  const machine = machineWith(options, GRBL_LINES);
+  const settings = { ...SETTINGS, customMachine: machine };
+
+  it.each(["killed", "unplugged"] as const)(
+    "draws nothing twice, and leaves nothing out, if it is %s",
+    { timeout: 300_000 },
+    async (how) => {
+      const random = seeded(5);
+      const wrong: unknown[] = [];
+      for (let i = 0; i < cases(40, 8); i++) {
+        // Also at the end, when it is on its way home.
+        const atS = 0.8 + (OWN_LINES_S - 0.8) * (i % 2 ? random() : 1 - 0.2 * random());
+        const { gapMm, overlapMm } = await interrupted(how, options, atS, FAULT_DRAWING, settings);
+        if (gapMm > MOST_MM || overlapMm > MOST_MM) wrong.push({ atS, gapMm, overlapMm });
+      }
+      expect(wrong).toEqual([]);
     },
   );
 });
