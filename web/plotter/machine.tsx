@@ -15,7 +15,6 @@ import { CONNECT, CONSOLE, MACHINES_DIALOG, RINGING, SAVE_LOG, SET_UP } from "./
 import { SettingsGroup } from "../ui/fields/settings-group.js";
 
 const FindPlotter = lazyPart(async () => (await import("./find-plotter.js")).FindPlotter);
-const OtherBoard = lazyPart(async () => (await import("./other-board.js")).OtherBoard);
 const HandMoves = lazyPart(async () => (await import("./hand/hand-moves.js")).HandMoves);
 
 const isSought = ({ kind, connection }: Plotter): boolean =>
@@ -30,9 +29,10 @@ export const MachinePanel = ({ children }: { children?: ReactNode }) => {
     <section className="card" aria-label={words.title}>
       <h2 className="card-title">{words.title}</h2>
       {plotter && <PlotterName plotter={plotter} />}
-      {isMine && plotter?.otherBoard && <OtherBoard board={plotter.otherBoard} />}
       <ActionButton action={CONNECT} />
-      {isMine && features.sharing && plotter && isSought(plotter) && <FindPlotter plotter={plotter} />}
+      {isMine && plotter && (features.sharing ? isSought(plotter) : plotter.otherBoard) && (
+        <FindPlotter plotter={plotter} />
+      )}
       {isMine && children}
       {isMine ? <PenAtHand /> : <StopMove />}
     </section>
