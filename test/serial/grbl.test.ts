@@ -24,7 +24,7 @@ import { cli } from "../support/processes/command-line.js";
 import { folderOfTest } from "../support/processes/folders.js";
 import { PtyGrbl } from "../support/processes/pty-grbl.js";
 import { startServerProcess } from "../support/processes/server-process.js";
-import { send } from "../support/servers/shared-servers.js";
+import { send, stateOf } from "../support/servers/shared-servers.js";
 import { countFor, IS_FULL } from "../support/runs/full-run.js";
 import { startAfter } from "../support/plots/start-after.js";
 
@@ -85,6 +85,10 @@ describe.each(GRBLS)("plot on a $face behind a pseudo-terminal", (options) => {
     open.push({ close: () => server.stop() });
     await send(server.url, "PUT", `/machines/${GRBL.id}`, GRBL);
     await send(server.url, "PATCH", "/plotters/main", { machine: GRBL.id });
+    // The server asks again with the new model, which takes some seconds.
+    await expect
+      .poll(async () => (await stateOf(server)).plotters[0]?.connection, { timeout: 60_000 })
+      .toBe("idle");
     await plotSample(name, []);
     await expectDrawn(board);
   });

@@ -171,10 +171,11 @@ export class GrblMachine implements Machine {
       await this.movePen(true, settings);
       return error;
     } catch (failure) {
-      // The pen is lifted when the machine is connected again.
-      if (this.session.failure) return error;
       const why = failure instanceof PlotwrightError ? ` ${failure.message}` : "";
-      return new PlotwrightError(error.code, `${error.message} ${NOT_LIFTED}${why}`, { cause: error });
+      // The pen is lifted when the machine is connected again.
+      if (this.session.failure && !this.lockedBy) return error;
+      const words = `${error.message}${this.lockedBy ? "" : ` ${NOT_LIFTED}`}${why}`;
+      return new PlotwrightError(error.code, words, { cause: error });
     }
   }
 

@@ -108,7 +108,7 @@ describe("a Grbl that stays locked", () => {
     expect(board.state().penUp).toBe(false);
     board.setStop(true);
     expect(await within(run.finished)).toMatch(
-      /^board-error: The Grbl has stopped with ALARM:10 \(its emergency stop was pressed\)/,
+      /^board-error: The Grbl has stopped with ALARM:10 \(its emergency stop was pressed\)\..* The Grbl stays locked, and nothing moves\. .* When the cause is gone, it is unlocked and the pen is lifted\.$/,
     );
     await world.advance(10);
     expect(driver.state).toMatchObject({ connection: "fault" });
