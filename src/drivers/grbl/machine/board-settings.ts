@@ -7,6 +7,7 @@ import type { MachineProfile } from "../../../machines/profile.js";
 import { ARC_TOLERANCE_MM } from "../model/arc-cut.js";
 import { axisLimits, GRBL_FIELDS, grblOf } from "../model/grbl-controller.js";
 import { difference, type Axes, type GrblAxisLimits } from "../model/planner.js";
+import { isOldVersion, unplaced } from "../protocol.js";
 import { rangeOf, reachOf, type Range } from "./reach.js";
 
 const AXES = ["X", "Y", "Z"] as const;
@@ -55,9 +56,10 @@ export class BoardSettings {
     return this.isOn(SETTING.reportInches) ? MM_PER_INCH : 1;
   }
 
-  /** A Grbl 0.9 reports its position both in machine and work coordinates. Later versions need one: they report the offset. */
-  get hasBothPositions(): boolean {
-    return ((this.values.get(SETTING.report) ?? BOTH_POSITIONS) & BOTH_POSITIONS) === BOTH_POSITIONS;
+  /** Throws `bad-setting` for a Grbl 0.9 that does not report both its positions. Later versions report their offset. */
+  mustReport(version: string): void {
+    const mask = this.values.get(SETTING.report) ?? BOTH_POSITIONS;
+    if (isOldVersion(version) && (mask & BOTH_POSITIONS) !== BOTH_POSITIONS) throw unplaced("in the console");
   }
 
   /** It locks itself at each start, until it is homed. */

@@ -29,13 +29,11 @@ import {
   HOME,
   isAtDoor,
   isLocked,
-  isOldVersion,
   isSleeping,
   locked,
   needsReset,
   noSwitches,
   NOT_LIFTED,
-  unplaced,
   type Status,
 } from "../protocol.js";
 import { endLeft } from "./braking.js";
@@ -144,9 +142,7 @@ export class GrblMachine implements Machine {
   async prepareMotors(settings: MachineSettings): Promise<MachineState> {
     const profile = this.use(settings);
     penLiftOf(profile);
-    if (isOldVersion(this.firmware) && !this.session.settings.hasBothPositions) {
-      throw unplaced("in the console");
-    }
+    this.session.settings.mustReport(this.firmware);
     // The Grbl locks itself when it is woken, because the carriage may have been pushed. It counts as at home then.
     if (this.isAsleep) await this.recovered(await this.session.reset(), true);
     this.isAsleep = false;
