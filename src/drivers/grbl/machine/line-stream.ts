@@ -5,6 +5,7 @@
 import { PlotwrightError } from "../../../errors.js";
 import type { Clock } from "../../transport.js";
 import { SYNC, type GrblCommands } from "../grbl-job.js";
+import { MAX_SLICES } from "../model/planner.js";
 import { CHECK, isChecking, isHeld, isJogging, otherProgram, type Status } from "../protocol.js";
 import { brake } from "./braking.js";
 import type { GrblSession } from "./session.js";
@@ -116,7 +117,7 @@ export class LineStream {
     const { planS, count } = this.commands;
     // Which lines were executed after a missed one is unknown.
     if (this.missedS !== null) return [this.certainS, planS[this.next]];
-    const from = this.firstUndone(this.session.queueMoves + 1);
+    const from = this.firstUndone(this.session.queueMoves + MAX_SLICES + 1);
     return [Math.max(planS[from], this.known.planS), planS[Math.min(count, this.answeredCount + 2)]];
   }
 

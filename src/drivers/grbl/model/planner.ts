@@ -33,6 +33,12 @@ export interface Move {
 /** Max moves in the queue of an Arduino, including the running one. */
 export const QUEUE_MOVES = 15;
 
+/**
+ * A Grbl cuts the next moves into slices of 10 ms, at most one move each, and keeps a few of them ready. A move whose slices
+ * are all cut has left the queue, but is not done. An Arduino keeps 5 slices, a FluidNC 12.
+ */
+export const MAX_SLICES = 12;
+
 /** A corner with a greater cosine than this counts as straight, or as a reversal. */
 const SAME = 0.999999;
 

@@ -8,6 +8,10 @@ interface Phase {
   readonly accel: number;
 }
 
+/** How many slices of motion a Grbl has ready, and how long each is, s. A move that is cut into them has left its queue. */
+const SLICES = 5;
+const SLICE_S = 0.01;
+
 /** Speeds and lengths below this count as 0: mm/s, mm. */
 const NOTHING = 1e-9;
 
@@ -37,7 +41,7 @@ export class GrblMotion {
   ) {}
 
   get isFull(): boolean {
-    return this.moves.length >= this.queueMoves;
+    return this.freeCount <= 0;
   }
 
   get isEmpty(): boolean {
@@ -49,7 +53,7 @@ export class GrblMotion {
   }
 
   get freeCount(): number {
-    return this.queueMoves - this.moves.length;
+    return this.queueMoves - this.moves.length + this.cutCount;
   }
 
   get end(): Axes {
@@ -132,6 +136,14 @@ export class GrblMotion {
     this.atS = Math.max(this.atS, toS);
   }
 
+  /** The moves at the front that are cut into slices already: as many as possible, at their highest speeds. */
+  private get cutCount(): number {
+    if (!this.isMoving) return 0;
+    const isShort = ({ lengthMm, speed }: Move): boolean => lengthMm <= speed * SLICE_S;
+    const long = this.moves.findIndex((move) => !isShort(move));
+    return Math.min(SLICES, long < 0 ? this.moves.length : long);
+  }
+
   private phasesOver(): void {
     const [move] = this.moves;
     const isOver = move.lengthMm - this.doneMm < 1e-6;
@@ -165,7 +177,10 @@ export class GrblMotion {
       this.add((this.speed - Math.sqrt(end2)) / accel, -accel);
       return;
     }
-    const end2 = Math.min(exitLimit2(this.moves, 0, this.moves.length), now2 + 2 * accel * leftMm);
+    const end2 = Math.min(
+      exitLimit2(this.moves, 0, Math.min(this.moves.length, this.queueMoves)),
+      now2 + 2 * accel * leftMm,
+    );
     const peak2 = Math.max(now2, Math.min(speed ** 2, accel * leftMm + (now2 + end2) / 2));
     const [peak, end] = [Math.sqrt(peak2), Math.sqrt(end2)];
     const cruiseMm = leftMm - (2 * peak2 - now2 - end2) / (2 * accel);

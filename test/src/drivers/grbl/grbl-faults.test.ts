@@ -9,8 +9,12 @@ import {
   newMachine,
   newPlotter,
   SETTINGS,
+  settingsWith,
   RefusedPlanner,
 } from "../../../support/plots/grbl-plotter.js";
+import { compareDrawn } from "../../../support/drawings/drawn-truth.js";
+import { circle } from "../../../support/drawings/round-drawing.js";
+import { GRBL, withoutArcs } from "../../../support/machines/machine.js";
 import { DRAWING, expectDrawn } from "../../../support/plots/live-plot.js";
 import { LocalPlanner, strokesOf } from "../../../support/plots/local-planner.js";
 
@@ -273,6 +277,22 @@ describe("an emergency stop", () => {
     await world.run(stopped, LIMIT_S);
     expect(board.state()).toMatchObject({ state: "Idle", penUp: true });
     expect(driver.state).toMatchObject({ xMm: null, yMm: null });
+  });
+
+  it("among moves so short that some have left the Grbl's queue leaves nothing out", async () => {
+    const strokes = strokesOf(...[10, 20, 30].map((x) => circle(x, 30, 4, 0, 0.97, 80).flat()));
+    const machine = withoutArcs(GRBL);
+    const settings = settingsWith({ face: "DrawCore" });
+    const { world, board, begin } = await newPlotter({}, machine);
+    const run = await begin(new LocalPlanner(strokes), {}, settings);
+    await world.advance(1);
+    for (let i = 0; i < 20; i++) {
+      await world.advance(0.31);
+      await world.run(run.emergencyStop());
+      await world.run(run.resume());
+    }
+    expect(await world.run(run.finished)).toEqual({ kind: "done" });
+    expect(compareDrawn(strokes, board.drawn()).gapMm).toBeLessThan(0.05);
   });
 
   it("an emergency stop while the pen lifts for a move by hand cancels the move", async () => {
