@@ -11,7 +11,7 @@ import { NO_PENS, type PenSetup } from "../../prepare/layers/pens.js";
 import type { PenSettings } from "../../settings/pen.js";
 import type { DriverPlanOptions, JobSettings, MachineCommands, MachineJob } from "../machine-job.js";
 import { fileLines } from "./grbl-file.js";
-import { ARC_TOLERANCE_MM } from "./model/arc-cut.js";
+import { ARC_TOLERANCE_MM, isArcTrue } from "./model/arc-cut.js";
 import { takesArcs } from "./model/firmware.js";
 import { axisLimits, dwellS, grblOf } from "./model/grbl-controller.js";
 import { GrblRuns, type SentMove } from "./model/grbl-runs.js";
@@ -63,7 +63,7 @@ export function planGrblJob(
     arcToleranceMm = ARC_TOLERANCE_MM,
   } = (options.board ?? {}) as Partial<GrblState>;
   const lift = penLiftOf(machine, limits, zero[2]);
-  const drawsArcs = grbl.arcs === true && takesArcs(options.firmware ?? null);
+  const drawsArcs = grbl.arcs === true && takesArcs(options.firmware ?? null) && isArcTrue(arcToleranceMm);
   const runs = new GrblRuns(machine, limits, queueMoves, drawsArcs ? arcToleranceMm : null);
   const trajectory = plan(strokes, { ...motion, mode: "junction", shaper: "none" }, penAtRest(pen), {
     servo: lift.servo,

@@ -14,6 +14,15 @@ export interface Arc {
 
 /** `$12` of a Grbl that nobody has changed. */
 export const ARC_TOLERANCE_MM = 0.002;
+/**
+ * With a larger `$12` an arc strays too far: Grbl rounds the number of moves down, so that a short arc may become one move,
+ * whose middle is up to four times the tolerance beside the arc. With 0 each arc becomes one.
+ */
+const MAX_ARC_TOLERANCE_MM = 0.005;
+
+/** Whether arcs of a Grbl with that `$12` are true enough to draw with. */
+export const isArcTrue = (toleranceMm: number): boolean =>
+  toleranceMm > 0 && toleranceMm <= MAX_ARC_TOLERANCE_MM;
 /** An arc that turns by less than this is a full circle, rad. */
 const NO_TURN = 5e-7;
 

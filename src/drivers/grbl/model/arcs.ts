@@ -33,6 +33,8 @@ export interface FoundArc extends Arc {
 const POINT_MM = 0.01;
 /** The gap between curves and their chords, by default. */
 const CHORD_MM = 0.02;
+/** The pen is never farther from the polyline, however coarse the steps are. */
+const MOST_MM = 0.05;
 /** Fewer lines are as short to send. */
 const MIN_SEGMENTS = 3;
 const MIN_RADIUS_MM = 0.25;
@@ -117,6 +119,10 @@ function fitted({ x, y, stepX, stepY }: ArcPath, first: number, last: number): F
 /** Whether the arc stays near the polyline from its start to its end, and the polyline near the arc. */
 function follows(path: ArcPath, { first, last, i, j, clockwise }: FoundArc, roundingMm: number): boolean {
   const { x, y, stepX, stepY, cap2 } = path;
+  // The ends of an arc are on whole steps, and so are the moves that the Grbl makes of it.
+  const mostMm = MOST_MM - roundingMm;
+  const pointMm = Math.min(mostMm, POINT_MM + roundingMm);
+  const chordMm = Math.min(mostMm, CHORD_MM + roundingMm);
   const [centreX, centreY] = [stepX[first] + i, stepY[first] + j];
   const radius = Math.hypot(i, j);
   const sense = clockwise ? -1 : 1;
@@ -128,7 +134,7 @@ function follows(path: ArcPath, { first, last, i, j, clockwise }: FoundArc, roun
   for (let k = first + 1; k <= last; k++) {
     if (cap2[k - 1] !== cap2[first]) return false;
     const [qx, qy] = [x[k] - centreX, y[k] - centreY];
-    if (Math.abs(Math.hypot(qx, qy) - radius) > POINT_MM + roundingMm) return false;
+    if (Math.abs(Math.hypot(qx, qy) - radius) > pointMm) return false;
     const turn = sense * Math.atan2(rx * qy - ry * qx, rx * qx + ry * qy);
     if (turn <= 0) return false;
     sweep += turn;
@@ -136,7 +142,7 @@ function follows(path: ArcPath, { first, last, i, j, clockwise }: FoundArc, roun
     const [dx, dy] = [qx - rx, qy - ry];
     const share = Math.min(1, Math.max(0, -(rx * dx + ry * dy) / (dx * dx + dy * dy)));
     const nearest = Math.hypot(rx + share * dx, ry + share * dy);
-    if (radius - nearest > CHORD_MM + roundingMm) return false;
+    if (radius - nearest > chordMm) return false;
     if (k > first + 1) {
       const corner =
         sense * Math.atan2(beforeX * dy - beforeY * dx, beforeX * dx + beforeY * dy) - turnBefore - turn;

@@ -136,7 +136,26 @@ describe("the plan", () => {
       const { moveCounts } = grblCommandsOf(planner.plots[0].commands);
       return moveCounts.reduce((sum, count) => sum + count, 0);
     };
-    expect(await countWith(0.02)).toBeLessThan(0.6 * (await countWith(0.002)));
+    expect(await countWith(0.005)).toBeLessThan(0.6 * (await countWith(0.001)));
+  });
+
+  it.each([0, 0.02, 0.05])("for an arc tolerance of %d has no arcs, which would stray", async (tolerance) => {
+    const { board, begin, within } = await newPlotter({ settings: { 12: tolerance } });
+    const planner = new KeepingPlanner(ROUND_DRAWING);
+    expect(await within((await begin(planner)).finished)).toEqual({ kind: "done" });
+    expect(grblCommandsOf(planner.plots[0].commands).lines.some(isArc)).toBe(false);
+    expect(compareDrawn(ROUND_DRAWING, board.drawn()).awayMm).toBeLessThan(MOST_MM);
+  });
+
+  it("keeps arcs near the drawing on a machine with coarse steps", () => {
+    // A gap between curve and chords that only finer steps allow.
+    const strokes = strokesOf(circle(40, 40, 11, 0, 0.9, 52).flat());
+    const arcCount = (stepsPerMm: number): number =>
+      linesOf(
+        planJob({ strokes }, { motion: DEFAULT_MOTION, pen: DEFAULT_PEN }, { ...GRBL, stepsPerMm }),
+      ).filter(isArc).length;
+    expect(arcCount(250)).toBeGreaterThan(0);
+    expect(arcCount(20)).toBe(0);
   });
 
   it("for other senders has arcs too", () => {
