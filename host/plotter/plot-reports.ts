@@ -9,7 +9,7 @@ import {
 } from "../../src/internal.js";
 import { BLOT_S, restedWhileStalled } from "./plotter-state.js";
 import type { JournalEntry, PlotStart, ReportedProgress } from "./plotter-port.js";
-import { JOURNAL_S, PROGRESS_S } from "./resume-position.js";
+import { JOURNAL_S, PROGRESS_S, SENT_SINCE_S } from "./resume-position.js";
 import type { LiveSettings } from "./live-settings.js";
 
 /** Moments in a report of progress: enough until the next one arrives. */
@@ -59,7 +59,9 @@ export class PlotReports {
     this.journalDueS = clock.nowS() + JOURNAL_S * speed;
     if (!place) return;
     const { xMm, yMm, penUp, elapsedS } = latest ?? this.initialProgress();
-    this.start.journal?.record({ place, received, run: this.start.run, xMm, yMm, penUp, elapsedS });
+    const aheadS = this.stream.sentAheadS?.(SENT_SINCE_S * speed);
+    const { run } = this.start;
+    this.start.journal?.record({ place, received, aheadS, run, xMm, yMm, penUp, elapsedS });
   }
 
   /** The progress before anything has been streamed. */

@@ -138,6 +138,8 @@ export interface JournalEntry {
    * still on its way to `place`: it had then received nothing that draws after `place`.
    */
   readonly received?: StrokePosition | undefined;
+  /** How much more motion may have been sent until the next entry (`sentAheadS`), in the machine's seconds. */
+  readonly aheadS?: number | undefined;
   /** The run of the plot that wrote this: a machine found in the middle of another run says nothing about the place. */
   readonly run?: number | undefined;
   /** Where the carriage was then. */
@@ -155,7 +157,7 @@ interface PlotJournal {
 
 /** What a journal entry says beside its place, for a plot that starts there. By default nothing was drawn after the place. */
 export type StoppedAt = {
-  readonly [Key in "received" | "run" | "xMm" | "yMm" | "board"]?: JournalEntry[Key] | undefined;
+  readonly [Key in "received" | "aheadS" | "run" | "xMm" | "yMm" | "board"]?: JournalEntry[Key] | undefined;
 };
 
 export interface PlotStart extends StoppedAt {

@@ -23,7 +23,7 @@ export const PROGRESS_S = 0.06;
  * Max time from the place that the board had received at the last journal entry to the end of what was sent, beside the
  * motion that is always sent ahead. In real seconds, also for a host that is busy for a while.
  */
-const SENT_SINCE_S = 1.5;
+export const SENT_SINCE_S = 1.5;
 
 const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0) });
 
@@ -31,6 +31,7 @@ const placeSchema = z.object({ stroke: z.int().min(0), alongMm: z.number().min(0
 export const journalSchema = z.object({
   place: placeSchema,
   received: placeSchema.optional(),
+  aheadS: z.number().optional(),
   run: z.int().optional(),
   xMm: z.number().optional(),
   yMm: z.number().optional(),
@@ -52,7 +53,7 @@ export function resumePosition(
   strokes: StrokeSet,
   settings: PlotSettings,
   penStops: readonly number[],
-  { from, received, run, xMm, yMm }: { readonly from: StrokePosition } & StoppedAt,
+  { from, received, aheadS, run, xMm, yMm }: { readonly from: StrokePosition } & StoppedAt,
 ): StrokePosition {
   const profile = machineOf(settings);
   const { foundMidPlot, speed } = machine;
@@ -81,13 +82,15 @@ export function resumePosition(
       if (isResumed && Math.hypot(at.x - start.x, at.y - start.y) <= aheadMm + nearMm) return from;
     }
   }
-  const aheadS = (SENT_SINCE_S + sendAheadMs / 1_000) * speed;
   const since = {
-    aheadMm: aheadS * Math.max(draw.speedMmPerS, travel.speedMmPerS),
+    aheadMm:
+      (aheadS ?? (SENT_SINCE_S + sendAheadMs / 1_000) * speed) *
+      Math.max(draw.speedMmPerS, travel.speedMmPerS),
     nearMm,
     offLineMm: maxOffLineMm(motion, profile),
     stops: penStops,
     lowerAheadMm: aheadMm,
   };
-  return reportedPosition(strokes, received ?? from, { ...at, up: foundMidPlot.penUp }, since) ?? from;
+  const drawnTo = foundMidPlot.isCutShort === true ? from : (received ?? from);
+  return reportedPosition(strokes, drawnTo, { ...at, up: foundMidPlot.penUp }, since) ?? from;
 }

@@ -275,6 +275,8 @@ export const MIN_RUN = 2 ** 28;
 /** How a machine was found in the middle of a plot. */
 export interface FoundMidPlot {
   readonly penUp: boolean;
+  /** It did not draw all that it had received. Left out: it did. */
+  readonly isCutShort?: boolean;
   /** Whether that run (`PlaybackRequest`) moved it last, as far as the machine can keep its number. */
   isOfRun(run: number | undefined): boolean;
 }
@@ -310,6 +312,11 @@ export interface Playback {
    * been stopped on the way to the place.
    */
   readonly receivedPlace: StrokePosition | undefined;
+  /**
+   * How much motion after the current place can be sent within `withinS` from now, in the machine's seconds. Undefined at
+   * rest. Left out by a machine that is sent motion by time (`sendAheadMs`).
+   */
+  sentAheadS?(withinS: number): number | undefined;
   /** Plays a plan to its end, or to a hold; the pen must be up. `afterS`: time of the plot after the end of this plan. */
   play(plot: PlannedPlot, afterS: number, begun: () => void): Promise<void>;
   /** Current position of the pen; null at rest. */

@@ -32,12 +32,16 @@ export async function brake(session: BrakingSession): Promise<void> {
   }
 }
 
-/** Ends what an earlier connection has left: motion, a hold … Throws if its door keeps it from moving. */
-export async function endLeft(session: BrakingSession): Promise<void> {
+/**
+ * Ends what an earlier connection has left: motion, a hold … Returns whether there was anything. Throws if its door keeps it
+ * from moving.
+ */
+export async function endLeft(session: BrakingSession): Promise<boolean> {
   const { state } = await session.status();
-  if (state === "Idle" || isLocked(state)) return;
+  if (state === "Idle" || isLocked(state)) return false;
   await brake(session);
   if (isAtDoor((await session.reset()).state)) throw doorOpen();
+  return true;
 }
 
 export const isSamePlace = (a: Status, b: Status): boolean => a.at.every((mm, axis) => mm === b.at[axis]);

@@ -1,6 +1,5 @@
 /** One connected Grbl: where its carriage and pen are, and what moves them. A carriage whose place is unknown counts as at home. */
 import { PlotwrightError } from "../../../errors.js";
-import { positionFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import { machineOf } from "../../../machines/profiles.js";
 import type {
@@ -18,10 +17,9 @@ import type { MachineSettings, MachineState, PlannedPlot } from "../../machine-j
 import { MoveSignal, moveTo } from "../../move-to.js";
 import type { Clock } from "../../transport.js";
 import { MODES } from "../grbl-file.js";
-import { grblCommandsOf, planGrblJob, type GrblCommands, type GrblState } from "../grbl-job.js";
+import { grblCommandsOf, planGrblJob, type GrblCommands } from "../grbl-job.js";
 import { findsHome } from "../model/grbl-controller.js";
 import { penLiftOf } from "../model/pen-lift.js";
-import { difference, type Axes } from "../model/planner.js";
 import {
   doorOpen,
   hasRestarted,
@@ -38,11 +36,12 @@ import {
 } from "../protocol.js";
 import { endLeft } from "./braking.js";
 import { sendTyped } from "./console.js";
-import { foundMidPlot, homeByMark, homeMark, keptRun, runByMark, type GrblMemory } from "./kept-home.js";
+import type { GrblMemory } from "./kept-home.js";
 import { GrblPlayback } from "./grbl-playback.js";
 import { isHeightLost, leftPen } from "./left-pen.js";
 import { LineStream } from "./line-stream.js";
 import { GrblPen } from "./pen.js";
+import { GrblPosition } from "./position.js";
 import type { GrblSession } from "./session.js";
 import { unlock } from "./unlock.js";
 
@@ -56,13 +55,6 @@ export class GrblMachine implements Machine {
   motorsOn: boolean | null = null;
   /** What the user should know about it, in words; null: nothing. */
   note: string | null = null;
-  foundMidPlot: FoundMidPlot | null = null;
-  /**
-   * Home in machine coordinates, mm; null: unknown. It is kept here and not in the Grbl, whose work offsets are the user's.
-   */
-  private home: Axes | null = null;
-  /** Where it rested last, in machine coordinates. */
-  private machineAt: Axes = [0, 0, 0];
   /** That of the latest settings. */
   private profile: MachineProfile | null = null;
   private isAsleep = false;
@@ -73,18 +65,19 @@ export class GrblMachine implements Machine {
   private lockedBy: PlotwrightError | null = null;
   /** Its open door or its emergency stop lets nothing move. */
   private isBarred = false;
-  /** `keptRun` of the unfinished plot that moved the carriage last; null if something else did. */
-  private run: number | null = null;
   private byHand: LineStream | null = null;
   readonly height: HeightPart;
   private readonly pen: GrblPen;
+  private readonly position: GrblPosition;
 
   constructor(
     readonly session: GrblSession,
     readonly firmware: string,
     private readonly options: ConnectOptions,
   ) {
-    this.height = this.pen = new GrblPen(session, () => options.events.changed());
+    const changed = (): void => options.events.changed();
+    this.height = this.pen = new GrblPen(session, changed);
+    this.position = new GrblPosition(session, this.pen, changed);
   }
 
   get clock(): Clock {
@@ -103,28 +96,31 @@ export class GrblMachine implements Machine {
     return this.pen.isMoving;
   }
 
+  get foundMidPlot(): FoundMidPlot | null {
+    return this.position.foundMidPlot;
+  }
+
   get state(): MachineState | null {
-    const { home, profile } = this;
-    return this.session.failure || !home || !profile ? null : this.stateFrom(home, profile);
+    const { position, profile } = this;
+    const { home } = position;
+    return this.session.failure || !home || !profile ? null : position.stateFrom(home, profile);
   }
 
   get memory(): GrblMemory {
-    const { home, pen, isBarred, run } = this;
+    const { pen, isBarred } = this;
+    const { home, run } = this.position;
     const foundMidPlot = isBarred ? this.foundMidPlot : undefined;
     return { home, penZeroMm: pen.zeroMm, isHeightUnsure: pen.isUnsure, foundMidPlot, run };
   }
 
   positionMm(profile: MachineProfile): { x: number; y: number } | null {
-    const { stepsPerMm } = profile;
-    if (!this.home) return null;
-    const [x, y] = difference(this.machineAt, this.home);
-    return positionFromMotors(profile, x * stepsPerMm, y * stepsPerMm);
+    return this.position.inMm(profile);
   }
 
   /** Stops motion that was left, reads the Grbl's settings, and lifts the pen if it may be on the paper. */
   async readKeptState(settings: MachineSettings, before: PenBefore | null): Promise<void> {
     const { session } = this;
-    await endLeft(session);
+    session.isCutShort = (await endLeft(session)) || session.isCutShort;
     const profile = this.use(settings);
     await session.readSettings();
     this.note = session.settings.slowerThan(profile);
@@ -132,7 +128,7 @@ export class GrblMachine implements Machine {
     await session.readOffset();
     // Again, because only now the units are known.
     const status = await session.status();
-    const isKept = !isLocked(status.state) && this.remember(status, before, profile);
+    const isKept = !isLocked(status.state) && this.position.remember(status, before, profile);
     this.pen.isUnsure = !findsHome(profile) && isHeightLost(this.pen.liftOf(profile), before, isKept);
     await this.recovered(status);
     if (this.lockedBy) throw this.lockedBy;
@@ -147,12 +143,13 @@ export class GrblMachine implements Machine {
     if (this.isAsleep) await this.recovered(await this.session.reset(), true);
     this.isAsleep = false;
     await this.mustNotBeHeld();
-    if (this.home === null) await this.seekHome(settings);
+    const { position } = this;
+    if (position.home === null) await this.seekHome(settings);
     await this.mustBeUnlocked();
-    const home = this.home ?? (await this.homeIsHere());
+    const home = position.home ?? (await position.homeIsHere());
     this.motorsOn = true;
     this.options.events.changed();
-    return this.stateFrom(home, profile);
+    return position.stateFrom(home, profile);
   }
 
   async movePen(up: boolean, settings: MachineSettings, heightPct?: number): Promise<void> {
@@ -196,18 +193,15 @@ export class GrblMachine implements Machine {
     }
   }
 
-  /** Call with its number before a run of a plot moves the carriage. Call with null when it has ended, and before anything else does. */
-  async noteRun(number: number | null): Promise<void> {
-    const run = number === null ? null : keptRun(number);
+  /** See `GrblPosition`. */
+  async noteRun(run: number | null): Promise<void> {
     if (run !== null) this.pen.isUnsure = false;
-    if (run === this.run) return;
-    this.run = run;
-    await this.markHome();
+    await this.position.noteRun(run);
   }
 
   /** Called after a job has been played to its end. */
   async arrived(): Promise<void> {
-    this.machineAt = (await this.session.status()).machineAt;
+    this.position.machineAt = (await this.session.status()).machineAt;
     // Each layer may have its own height.
     this.pen.setState(true);
     this.options.events.changed();
@@ -233,14 +227,14 @@ export class GrblMachine implements Machine {
     }
     await this.recovered(await session.status());
     this.pen.foundSwitch();
-    await this.homeIsHere();
+    await this.position.homeIsHere();
     await this.movePen(true, settings);
     return true;
   }
 
   async setHome(settings: MachineSettings): Promise<void> {
     await this.prepareMotors(settings);
-    await this.homeIsHere();
+    await this.position.homeIsHere();
   }
 
   async motorsOff(): Promise<void> {
@@ -251,8 +245,8 @@ export class GrblMachine implements Machine {
   }
 
   forgetPosition(): Promise<void> {
-    this.home = this.foundMidPlot = null;
-    if (!this.isAsleep && !this.isLocked) this.markHome().catch(() => undefined);
+    this.position.home = this.position.foundMidPlot = null;
+    if (!this.isAsleep && !this.isLocked) this.position.mark().catch(() => undefined);
     this.options.events.changed();
     return Promise.resolve();
   }
@@ -313,9 +307,9 @@ export class GrblMachine implements Machine {
     commands: GrblCommands,
     onHeld: (state: string) => void = () => this.options.events.buttonPressed(),
   ): LineStream {
-    this.session.settings.mustPerform(commands.lines, this.session.offset, this.machineAt);
+    this.session.settings.mustPerform(commands.lines, this.session.offset, this.position.machineAt);
     this.motorsOn = true;
-    this.foundMidPlot = null;
+    this.position.foundMidPlot = null;
     this.pen.setState(null);
     return new LineStream(this.session, commands, this.clock, onHeld);
   }
@@ -323,7 +317,7 @@ export class GrblMachine implements Machine {
   /** Call after a play that did not reach its end: Grbl then accepts moves again. `penUp`: as it was at the end. */
   async recover(stream: LineStream, settings: MachineSettings, penUp: boolean | null): Promise<boolean> {
     const status = await stream.cleared();
-    if (stream.isBroken) this.home = null;
+    if (stream.isBroken) this.position.home = null;
     await this.recovered(status);
     // Its greeting may have been lost.
     if (this.isLocked || !hasRestarted(status)) return true;
@@ -338,7 +332,7 @@ export class GrblMachine implements Machine {
   /** Call after a reset: restores the modes that the lines need, and takes over the reported position. */
   private async recovered({ state, machineAt }: Status, mayUnlock = this.mayUnlock): Promise<void> {
     this.pen.setState(null);
-    this.machineAt = machineAt;
+    this.position.machineAt = machineAt;
     this.isLocked = isLocked(state) && !mayUnlock;
     this.lockedBy = null;
     this.options.events.changed();
@@ -351,13 +345,7 @@ export class GrblMachine implements Machine {
     }
     // If they are refused, so is the next move.
     await this.session.attempt(MODES);
-    await this.markHome();
-  }
-
-  /** Tells a later process where home is, as far as that is possible. */
-  private markHome(): Promise<void> {
-    const { session, pen, home, run } = this;
-    return session.attempt(homeMark(pen.zeroMm === null ? home : null, run, session.settings));
+    await this.position.mark();
   }
 
   private use(settings: MachineSettings): MachineProfile {
@@ -370,7 +358,7 @@ export class GrblMachine implements Machine {
   private async mustNotBeHeld(): Promise<void> {
     const { state } = await this.session.status();
     if (!needsReset(state)) return;
-    if (isSleeping(state)) this.home = null;
+    if (isSleeping(state)) this.position.home = null;
     const left = await this.session.reset();
     await this.recovered(left);
     if (isAtDoor(left.state)) throw this.stoppedBy(doorOpen());
@@ -397,6 +385,7 @@ export class GrblMachine implements Machine {
    * because it is probably up.
    */
   private async liftLeft(status: Status, settings: MachineSettings, before: PenBefore | null): Promise<void> {
+    const { position } = this;
     const lift = this.pen.liftOf(machineOf(settings));
     if (lift.kind === "z" && hasRestarted(status)) {
       // It counts from 0 wherever the pen is, so the pen is lifted by its travel.
@@ -406,46 +395,9 @@ export class GrblMachine implements Machine {
       else await this.movePen(true, settings);
       return;
     }
-    const run = this.home && this.run;
-    const left = leftPen(lift, status.at[2], this.session.modes, settings.pen, before, run !== null);
-    const memory = (before?.memory ?? {}) as Partial<GrblMemory>;
-    if (run !== null)
-      this.foundMidPlot =
-        memory.foundMidPlot === undefined ? foundMidPlot(left.isUp, run) : memory.foundMidPlot;
+    const left = leftPen(lift, status.at[2], this.session.modes, settings.pen, before, position.isInPlot);
+    position.foundWith(left.isUp, before);
     if (left.mustLift) await this.movePen(true, settings);
     else if (left.isUp) this.pen.setState(true);
-  }
-
-  private stateFrom(home: Axes, profile: MachineProfile): GrblState {
-    const [x, y] = difference(home, this.session.offset);
-    return {
-      at: difference(this.machineAt, home),
-      zero: [x, y, this.pen.zeroInWorkMm],
-      limits: this.session.settings.limitsFor(profile),
-      queueMoves: this.session.queueMoves,
-      arcToleranceMm: this.session.settings.arcToleranceMm,
-    };
-  }
-
-  /** A Grbl that was not restarted still counts from the same place. Returns whether it does. */
-  private remember(status: Status, before: PenBefore | null, profile: MachineProfile): boolean {
-    const { foundModes, settings } = this.session;
-    const memory = hasRestarted(status) ? null : (before?.memory as GrblMemory | null | undefined);
-    this.pen.zeroMm = memory?.penZeroMm ?? null;
-    this.home = memory?.home ?? homeByMark(foundModes, status.machineAt, profile, settings);
-    this.machineAt = status.machineAt;
-    this.run = memory === null || memory === undefined ? runByMark(foundModes) : memory.run;
-    this.options.events.changed();
-    return Boolean(memory) || this.home !== null;
-  }
-
-  private async homeIsHere(): Promise<Axes> {
-    const { machineAt } = await this.session.status();
-    this.home = this.machineAt = machineAt;
-    this.foundMidPlot = null;
-    this.run = null;
-    await this.markHome();
-    this.options.events.changed();
-    return machineAt;
   }
 }

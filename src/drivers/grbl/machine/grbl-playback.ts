@@ -55,8 +55,9 @@ export class GrblPlayback implements Playback {
   private isEmergency = false;
   private failure: PlotwrightError | null = null;
   private isHeightKnown = true;
-  /** `receivedPlace` when the last play failed. */
+  /** `receivedPlace` and `sentAheadS` when the last play failed. */
   private receivedAtEnd: StrokePosition | undefined = undefined;
+  private aheadAtEndS: number | undefined = undefined;
   private readonly strokes: StrokeSet;
   private readonly events: PlaybackEvents;
 
@@ -80,6 +81,12 @@ export class GrblPlayback implements Playback {
     return estimatedPosition(plot.trajectory, planS) ?? endOfPlan(this.strokes, plot.trajectory) ?? undefined;
   }
 
+  sentAheadS(withinS: number): number | undefined {
+    if (!this.current) return this.aheadAtEndS;
+    const { stream } = this.current;
+    return stream.sentS(withinS) - stream.planS;
+  }
+
   now(): PlotProgress | null {
     if (!this.current) return null;
     const { commands, stream } = this.current;
@@ -97,7 +104,7 @@ export class GrblPlayback implements Playback {
     this.stopped = null;
     this.requested = null;
     this.isEmergency = false;
-    this.receivedAtEnd = undefined;
+    this.receivedAtEnd = this.aheadAtEndS = undefined;
     await machine.noteRun(this.request.run);
     // `fail` may have been called while the pen was lifted.
     if (this.failure) throw this.failure;
@@ -117,6 +124,7 @@ export class GrblPlayback implements Playback {
     } catch (error) {
       // Before the stream is asked to stop.
       this.receivedAtEnd = this.receivedPlace;
+      this.aheadAtEndS = this.sentAheadS(0);
       left = certainPosition(this.current) ?? progress.place;
       // The caller of `fail` takes care of the machine.
       if (this.failure || !(error instanceof PlotwrightError)) throw error;

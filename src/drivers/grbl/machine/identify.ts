@@ -15,6 +15,8 @@ interface AskedGrbl {
   readonly lastStatus: Status | null;
   /** The first report of the parser's modes; "": none. */
   foundModes: string;
+  /** It was stopped before it had drawn what an earlier process had sent. */
+  isCutShort: boolean;
   now(byte: string): void;
   send(line: string): Promise<void>;
 }
@@ -34,6 +36,7 @@ export async function askVersion(grbl: AskedGrbl, isAgain: boolean): Promise<str
   // A Grbl that sleeps, holds or works for another program answers only after a reset. Reset in motion it is locked.
   if (isAgain) {
     if (grbl.lastStatus && isMoving(grbl.lastStatus.state)) {
+      grbl.isCutShort = true;
       grbl.now(NOW.hold);
       await delay(grbl.clock, HOLD_S);
     }

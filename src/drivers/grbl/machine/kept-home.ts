@@ -37,8 +37,9 @@ const isSame = (a: Axes, b: Axes): boolean =>
 /** What a Grbl can keep of a run's number. */
 export const keptRun = (run: number): number => run % RUN_COUNT;
 
-export const foundMidPlot = (penUp: boolean, run: number): FoundMidPlot => ({
+export const foundMidPlot = (penUp: boolean, run: number, isCutShort: boolean): FoundMidPlot => ({
   penUp,
+  isCutShort,
   isOfRun: (other) => other !== undefined && keptRun(other) === run,
 });
 

@@ -112,6 +112,18 @@ export class LineStream {
       : this.takenS;
   }
 
+  /** What will have been sent at most after `withinS` more seconds, seconds along the plan. */
+  sentS(withinS: number): number {
+    const { planS, moveCounts, count } = this.commands;
+    const drawnS = this.planS + withinS;
+    let line = this.firstUndone(this.session.queueMoves);
+    while (line < count && planS[line + 1] <= drawnS) line++;
+    for (let left = this.session.queueMoves; line < count && left > 0; left -= moveCounts[line - 1]) line++;
+    let next = line;
+    while (next < count && !isFarAhead(planS, line, next)) next++;
+    return planS[next];
+  }
+
   /** Bounds of the position, seconds along the plan. */
   get boundsS(): readonly [fromS: number, toS: number] {
     const { planS, count } = this.commands;
@@ -196,18 +208,12 @@ export class LineStream {
     return line;
   }
 
-  /** Enough is sent ahead. At least one line always waits behind the first. */
-  private get isFarAhead(): boolean {
-    const { planS } = this.commands;
-    return this.next > this.answeredCount + 1 && planS[this.next] - planS[this.answeredCount] >= AHEAD_S;
-  }
-
   private feed(): void {
     const { lines, count } = this.commands;
     while (!this.isOver) {
       const end = this.checkDue;
       if (end === 0 && this.next === count) return;
-      if (end === 0 && this.isFarAhead) return;
+      if (end === 0 && isFarAhead(this.commands.planS, this.answeredCount, this.next)) return;
       const line = end > 0 ? CHECK : lines[this.next];
       if (!this.session.hasRoom(line)) return;
       if (end > 0) {
@@ -269,3 +275,7 @@ export class LineStream {
     this.slowDown(error);
   }
 }
+
+/** Whether enough is sent ahead before the line `next`. At least one line always waits behind the first. */
+const isFarAhead = (planS: ArrayLike<number>, answeredCount: number, next: number): boolean =>
+  next > answeredCount + 1 && planS[next] - planS[answeredCount] >= AHEAD_S;

@@ -88,6 +88,8 @@ export class GrblSession implements LineProtocol {
   /** The latest report of the parser's modes, and the first one, from before any reset of ours; "": none has come. */
   modes = "";
   foundModes = "";
+  /** It was stopped before it had drawn what an earlier connection had sent. */
+  isCutShort = false;
   /** The latest answer with which it has refused a line: "error:20". */
   lastRefusal = "";
   /** Resets that were sent. */

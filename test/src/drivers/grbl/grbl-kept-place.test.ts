@@ -47,6 +47,7 @@ async function interrupted(
   atS: number,
   strokes = FAULT_DRAWING,
   settings = settingsWith(options),
+  restS = REST_S,
 ) {
   const { world, board, ...first } = await newPlotter(options, machineOf(settings));
   const journal: JournalEntry[] = [];
@@ -62,7 +63,7 @@ async function interrupted(
   const atKill = journal.at(-1)!;
   if (how === "unplugged") first.line().unplug();
   else first.kill();
-  await world.advance(REST_S);
+  await world.advance(restS);
   if (how === "killed, and the Grbl is reset") {
     board.restart();
     // As the person is asked to.
@@ -223,6 +224,29 @@ describe.each(FACES)("a pen that own lines move, on $face", (options) => {
       expect(wrong).toEqual([]);
     },
   );
+});
+
+describe.each(FACES)("a plot of long, slow lines on $face", (options) => {
+  const ZIGZAG = strokesOf(Array.from({ length: 30 }, (_, i) => [i % 2 === 0 ? 20 : 270, 10 + 5 * i]).flat());
+  const usual = settingsWith(options);
+  const { motion } = usual;
+  const SLOW = { ...usual, motion: { ...motion, draw: { ...motion.draw, speedMmPerS: 40 } } };
+  /** Longer than the whole plot. */
+  const DRAWN_S = 400;
+
+  // Its queue holds up to 100 s of the drawing. A plotter that is connected again stops it after a minute.
+  it.each(["killed", "unplugged"] as const)("goes on where it stopped if it is %s", async (how) => {
+    const count = cases(6, 2);
+    for (let i = 0; i < count; i++) {
+      const atS = 5 + (20 * i) / count;
+      const { gapMm, overlapMm } = await interrupted(how, options, atS, ZIGZAG, SLOW, DRAWN_S);
+      expect({ atS, isWhole: gapMm < MOST_MM, isOnce: overlapMm < MOST_MM }).toEqual({
+        atS,
+        isWhole: true,
+        isOnce: true,
+      });
+    }
+  });
 });
 
 describe("the place of a Grbl", () => {
