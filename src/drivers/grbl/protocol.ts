@@ -79,6 +79,9 @@ export function buffersOf(line: string): { queueMoves: number; rxBytes: number }
   return match && { queueMoves: Number(match[1]), rxBytes: Number(match[2]) };
 }
 
+/** Whether `[OPT:VC,15,128]` says that a plain Grbl is built for CoreXY. */
+export const isBuiltForCore = (line: string): boolean => /^\[OPT:[^,\]]*C/.test(line);
+
 /** A line of the reply to `$I`, whose version is that of the Grbl from which grblHAL comes. */
 const HAL_FIRMWARE = "[FIRMWARE:grblHAL]";
 

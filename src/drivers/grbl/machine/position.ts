@@ -39,7 +39,7 @@ export class GrblPosition {
     return {
       at: difference(machineAt, home),
       zero: [x, y, pen.zeroInWorkMm],
-      limits: session.settings.limitsFor(profile),
+      limits: { ...session.settings.limitsFor(profile), isCore: session.plansMotors },
       queueMoves: session.queueMoves,
       arcToleranceMm: session.settings.arcToleranceMm,
     };

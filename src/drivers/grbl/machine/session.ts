@@ -21,6 +21,7 @@ import {
   heldError,
   HOME,
   INFO,
+  isBuiltForCore,
   isGreeting,
   isHeld,
   isMoving,
@@ -99,6 +100,7 @@ export class GrblSession implements LineProtocol {
   lastStatus: Status | null = null;
 
   private buffers = { queueMoves: QUEUE_MOVES, rxBytes: RX_BYTES };
+  private hasCore = false;
   private readonly sent = new SentLines();
   /** Work zero in machine coordinates, in the board's units, which may be known only later. Null: not yet reported. */
   private reportedOffset: Axes | null = null;
@@ -169,6 +171,11 @@ export class GrblSession implements LineProtocol {
     const { mmPerUnit } = this.settings;
     const [x, y, z] = this.reportedOffset ?? [0, 0, 0];
     return [x * mmPerUnit, y * mmPerUnit, z * mmPerUnit];
+  }
+
+  /** Whether it plans the way of its motors. grblHAL and FluidNC plan that of the carriage. */
+  get plansMotors(): boolean {
+    return this.hasCore && this.version?.startsWith("Grbl ") === true;
   }
 
   /** Max accepted moves that are not done. */
@@ -314,6 +321,7 @@ export class GrblSession implements LineProtocol {
     this.isGreeted ||= isGreeting(line);
     this.takeVersion(versionAfter(line, this.version));
     this.buffers = buffersOf(line) ?? this.buffers;
+    this.hasCore ||= isBuiltForCore(line);
     this.settings.take(line);
     const alarmed = alarmOf(line);
     if (line === "ok") this.settleFirst(null);

@@ -8,7 +8,7 @@ import type { RunPlanner } from "../../../plan/run-writer.js";
 import { newStraight, writeStraight } from "../../../plan/trapezoid.js";
 import { cutArc, extremesOf, sweepOf, type Arc } from "./arc-cut.js";
 import { arcsOf, type ArcPath, type FoundArc } from "./arcs.js";
-import { moveOf, plannedSpeeds2, type Axes, type GrblAxisLimits, type Move } from "./planner.js";
+import { feedFor, moveOf, plannedSpeeds2, type Axes, type GrblAxisLimits, type Move } from "./planner.js";
 
 /** A line to send: to a position of the axes, mm. */
 export interface SentMove {
@@ -125,9 +125,9 @@ export class GrblRuns implements RunPlanner {
   /** The profile may limit the speed more than the Grbl itself; of an arc, where it is slowest. */
   private feedTo(ends: readonly Point[], start: Point, cap: number): number {
     const speeds = ends.map(
-      (to, k) => moveOf((ends[k - 1] ?? start).at, to.at, cap, this.limits, null).speed,
+      (to, k) => moveOf((ends[k - 1] ?? start).at, to.at, feedFor(cap, this.limits), this.limits, null).speed,
     );
-    return feedOf(Math.min(...speeds));
+    return feedOf(feedFor(Math.min(...speeds), this.limits));
   }
 
   /** The straight moves that Grbl makes of an arc. Its points divide the drawing as their angles do. */

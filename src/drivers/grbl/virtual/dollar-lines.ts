@@ -42,7 +42,7 @@ export class DollarLines {
     const isKnown = /^\$([$IC]|SLP)$/.test(line) || number !== undefined || jog !== null;
     if (!isKnown) return ERROR.dollar;
     if (!motion.isEmpty && !states.isLocked) return ERROR.busy;
-    if (line === "$I") for (const info of settings.face.info) reply(info);
+    if (line === "$I") for (const info of settings.info) reply(info);
     else if (line === "$$") for (const setting of settings.list()) reply(setting);
     else if (line === "$SLP") states.isAsleep = true;
     else if (line === "$C") this.check();

@@ -15,6 +15,8 @@ export interface VirtualGrblOptions {
   readonly refusal?: number;
   /** Whether it knows G2 and G3; default: as its face does. */
   readonly takesArcs?: boolean;
+  /** Whether it is built for CoreXY, and plans the way of its motors as Grbl 1.1 does. Default false. */
+  readonly isCore?: boolean;
   /** Settings by number, where they differ from the machine's profile: { 110: 3000 } is $110=3000. */
   readonly settings?: Readonly<Record<number, number>>;
 }
@@ -52,6 +54,7 @@ export class VirtualSettings {
   readonly rxBytes: number;
   readonly refusal: number;
   readonly takesArcs: boolean;
+  private readonly isCore: boolean;
   /** Reports until the next one with the work offset. */
   offsetDue = 0;
   private readonly settings = new Map<number, number>();
@@ -65,12 +68,14 @@ export class VirtualSettings {
       rxBytes,
       refusal = ERROR.unknown,
       takesArcs,
+      isCore = false,
       settings = {},
     }: VirtualGrblOptions,
   ) {
     this.refusal = refusal;
     this.face = faceOf(face);
     this.takesArcs = takesArcs ?? this.face.takesArcs;
+    this.isCore = isCore;
     this.rxBytes = rxBytes ?? this.face.rxBytes;
     const { speed, accel, junctionMm } = axisLimits(grblOf(machine));
     const finite = (value: number, other: number): number => (Number.isFinite(value) ? value : other);
@@ -112,7 +117,13 @@ export class VirtualSettings {
       speed: [speed[0] / 60, speed[1] / 60, speed[2] / 60],
       accel: this.axes(120),
       junctionMm: this.value(11),
+      isCore: this.isCore,
     };
+  }
+
+  /** The reply to `$I`. */
+  get info(): readonly string[] {
+    return this.isCore ? this.face.info.map((line) => line.replace("[OPT:V", "[OPT:VC")) : this.face.info;
   }
 
   get arcToleranceMm(): number {

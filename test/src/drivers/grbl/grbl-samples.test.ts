@@ -33,6 +33,7 @@ const SMALL_BUFFER_STARVES = 20;
 const GRBLS: readonly (readonly [name: string, VirtualGrblOptions, mostStarved: number])[] = [
   ["Grbl 1.1", { face: "1.1" }, SMALL_BUFFER_STARVES],
   ["a Grbl 1.1 with 127 usable bytes", { face: "1.1", rxBytes: 127 }, SMALL_BUFFER_STARVES],
+  ["a Grbl 1.1 that is built for CoreXY", { face: "1.1", isCore: true }, SMALL_BUFFER_STARVES],
   ["grblHAL", { face: "grblHAL" }, 0],
   ["FluidNC", { face: "FluidNC" }, SMALL_BUFFER_STARVES],
   ["DrawCore", { face: "DrawCore" }, SMALL_BUFFER_STARVES],

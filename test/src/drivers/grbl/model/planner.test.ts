@@ -2,6 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_MOTION, DEFAULT_PEN, planJob, type MotionSettings } from "../../../../../src/index.js";
 import {
+  feedFor,
   junctionSpeed2,
   moveOf,
   moveTimeS,
@@ -92,5 +93,39 @@ describe("the time of", () => {
     expect(board.state().state).toBe("Idle");
     expect(answers.match(/ok/g)).toHaveLength(points.length + 1);
     board.close();
+  });
+});
+
+describe("a Grbl that is built for CoreXY", () => {
+  const motors = { speed: [100, 80, 10], accel: [500, 400, 20], junctionMm: 0.01, isCore: true } as const;
+
+  it("moves X and Y at F/√2, and Z at F", () => {
+    expect(moveOf([0, 0, 0], [50, 0, 0], 40, motors, null).speed).toBeCloseTo(40 / Math.SQRT2, 9);
+    expect(moveOf([0, 0, 0], [0, 0, 5], 8, motors, null).speed).toBe(8);
+    expect(feedFor(40 / Math.SQRT2, motors)).toBeCloseTo(40, 9);
+  });
+
+  it("is limited by its motors: both turn for a move along an axis, and one for a diagonal, √2 times as far", () => {
+    const along = moveOf([0, 0, 0], [50, 0, 0], Infinity, motors, null);
+    expect([along.speed, along.accel]).toEqual([80, 400]);
+    const first = moveOf([0, 0, 0], [30, 30, 0], Infinity, motors, null);
+    expect(first.speed).toBeCloseTo(100 / Math.SQRT2, 9);
+    expect(first.accel).toBeCloseTo(500 / Math.SQRT2, 9);
+    const second = moveOf([0, 0, 0], [30, -30, 0], Infinity, motors, null);
+    expect(second.speed).toBeCloseTo(80 / Math.SQRT2, 9);
+  });
+
+  it("passes a corner within the junction deviation of its motors' way", () => {
+    // The way of the motors is the carriage's, turned by 45° and √2 times as long.
+    const [before, after] = [
+      [1, 0, 0],
+      [0, 1, 0],
+    ] as const;
+    const turned = [
+      [Math.SQRT1_2, Math.SQRT1_2, 0],
+      [Math.SQRT1_2, -Math.SQRT1_2, 0],
+    ] as const;
+    const ofMotors2 = junctionSpeed2(turned[0], turned[1], { ...motors, isCore: false });
+    expect(junctionSpeed2(before, after, motors)).toBeCloseTo(ofMotors2 / 2, 9);
   });
 });
