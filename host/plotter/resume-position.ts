@@ -59,11 +59,12 @@ export function resumePosition(
   const { foundMidPlot, speed } = machine;
   const at = machine.positionMm(profile);
   if (!foundMidPlot || !at) return from;
+  // Another plot has moved the carriage since.
   if (!foundMidPlot.isOfRun(run)) return from;
   const { motion, pen, sendAheadMs } = settings;
   const { draw, travel } = motion;
   const nearMm = maxOffDrawingMm(motion, profile);
-  const aheadMm = lowerAheadMm(timedPen(pen, profile), travel.accelMmPerS2);
+  const loweringMm = lowerAheadMm(timedPen(pen, profile), travel.accelMmPerS2);
   if (!received) {
     const start = pointAt(strokes, from);
     if (foundMidPlot.penUp) {
@@ -79,7 +80,7 @@ export function resumePosition(
     } else {
       // A resumed plot came from anywhere. Just before `from`, its pen comes down.
       const isResumed = from.stroke > 0 || from.alongMm > 0;
-      if (isResumed && Math.hypot(at.x - start.x, at.y - start.y) <= aheadMm + nearMm) return from;
+      if (isResumed && Math.hypot(at.x - start.x, at.y - start.y) <= loweringMm + nearMm) return from;
     }
   }
   const since = {
@@ -89,7 +90,7 @@ export function resumePosition(
     nearMm,
     offLineMm: maxOffLineMm(motion, profile),
     stops: penStops,
-    lowerAheadMm: aheadMm,
+    lowerAheadMm: loweringMm,
   };
   const drawnTo = foundMidPlot.isCutShort === true ? from : (received ?? from);
   return reportedPosition(strokes, drawnTo, { ...at, up: foundMidPlot.penUp }, since) ?? from;
