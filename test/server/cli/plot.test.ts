@@ -248,7 +248,11 @@ describe("plotwright plot", () => {
     expect(refused.err).toMatch(/plot of b\.svg was interrupted at 40 %.*plot --resume/);
     expect(refused.code).toBe(5);
     const received = { stroke: 0, alongMm: 4 };
-    expect(record.find()).toMatchObject({ from: { stroke: 0, alongMm: 3 }, received, run: 5, progress: 0.4 });
+    expect(record.find()).toMatchObject({
+      from: { stroke: 0, alongMm: 3 },
+      stopped: { received, run: 5 },
+      progress: 0.4,
+    });
     for (const other of [["--speed", "20"], ["--copies", "2"], ["--restart"], ["--no-fit"]]) {
       const { code, err } = await plot(withoutKeyboard(), "--resume", ...other);
       expect([code, err.trim()]).toEqual([2, expect.stringMatching(`leave out ${other[0]}\\.$`)]);
