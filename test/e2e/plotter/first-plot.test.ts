@@ -22,6 +22,8 @@ interface NewPlotter {
   open(): Promise<PtyBoard | PtyGrbl>;
   readonly homesItself: boolean;
   readonly clicks: number;
+  /** It has no picture: it is chosen in the list of all models. */
+  readonly isInList?: boolean;
   /** Its controller plans by itself, so that measuring how it rings is of no use. */
   readonly plansItself: boolean;
 }
@@ -47,14 +49,14 @@ const grbl = (
 const NEW: readonly NewPlotter[] = [
   { ...ebb("axidraw-v3", "2.8.1"), homesItself: false, clicks: 6 },
   { ...ebb("nextdraw-8511", "3.0.3"), homesItself: true, clicks: 5 },
-  { ...grbl("idraw-h-a3", "DrawCore"), homesItself: false, clicks: 5 },
-  { ...grbl("grbl-servo", "1.1"), homesItself: false, clicks: 5 },
+  { ...grbl("idraw-h-a3", "DrawCore"), homesItself: false, clicks: 6 },
+  { ...grbl("grbl-servo", "1.1"), homesItself: false, clicks: 5, isInList: true },
 ];
 
 const plotterOf = async ({ server }: PageTest): Promise<Plotter> =>
   snapshotSchema.parse(await (await fetch(`${server.url}/api/v1/state`)).json()).plotters[0];
 
-describe.each(NEW)("a new $machine", ({ machine, open, homesItself, clicks, plansItself }) => {
+describe.each(NEW)("a new $machine", ({ machine, open, homesItself, clicks, isInList, plansItself }) => {
   const { name } = machineById(machine);
   let board: PtyBoard | PtyGrbl;
   let test: PageTest;
@@ -85,13 +87,13 @@ describe.each(NEW)("a new $machine", ({ machine, open, homesItself, clicks, plan
     guide().getByRole("button", { name: label, exact: true }).and(test.page.locator(":enabled")).click();
   const plotter = () => plotterOf(test);
 
-  it("is chosen by its picture, and a step is ticked only when it is done", async () => {
+  it("is chosen by its picture or in the list, and a step is ticked only when it is done", async () => {
     const question = guide().getByRole("group", { name: "Which plotter is this?" });
     await question.waitFor();
     const ticks = () => guide().locator("li[data-done]").count();
     expect(await ticks()).toBe(0);
-    expect(await question.locator("svg.machine-picture").count()).toBe(6);
-    if (plansItself) await question.getByLabel("All models").selectOption({ label: name });
+    expect(await question.locator("svg.machine-picture").count()).toBe(7);
+    if (isInList) await question.getByLabel("All models").selectOption({ label: name });
     else await press(name);
     await expect.poll(async () => (await plotter()).machine).toBe(machine);
     await guide().getByRole("button", { name: "Another model…" }).waitFor();

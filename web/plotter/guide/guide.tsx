@@ -186,7 +186,6 @@ const ModelChoice = () => {
       ) : (
         <>
           <ModelCards onChoose={() => setOpen(false)} />
-          <p className="note">{words.otherModels}</p>
           <ModelSelect
             label={words.allModels}
             {...(isOpen ? {} : { unchosen: words.chooseModel })}

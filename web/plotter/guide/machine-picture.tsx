@@ -62,6 +62,19 @@ const PICTURES = {
       {pen(35.5, 34)}
     </>
   ),
+  /** A beam of two rails between long feet, with a broad arm across it. */
+  idraw: (
+    <>
+      {sheet(16, 21, 42, 26)}
+      <path d="M10 8h52M10 14h52" className="machine-detail" />
+      <rect x="4" y="2" width="7" height="22" rx="1" className="machine-body" />
+      <rect x="61" y="2" width="7" height="22" rx="1" className="machine-body" />
+      <rect x="26" y="1.5" width="7" height="32" rx="1" className="machine-body" />
+      <path d="M29.5 2v31" className="machine-detail" />
+      <rect x="22.5" y="5" width="14" height="12" rx="2" className="machine-body" />
+      {pen(29.5, 34)}
+    </>
+  ),
   /** An egg between two holders, and the arm over it. */
   egg: (
     <>

@@ -7,27 +7,56 @@ import { MachinePicture, type MachinePictureName } from "./machine-picture.js";
 
 interface Family {
   readonly name: string;
-  readonly picture: MachinePictureName;
   /** Ids of its models with what is on their buttons. */
   readonly models: Readonly<Partial<Record<MachineId, string>>>;
 }
 
+/** Families that look alike share a drawing. */
+interface Card {
+  readonly picture: MachinePictureName;
+  readonly families: readonly Family[];
+}
+
 /** The models that are most common; the list under the cards has all. */
-const FAMILIES: readonly Family[] = [
+const CARDS: readonly Card[] = [
   {
-    name: "AxiDraw V3",
     picture: "v3",
-    models: { "axidraw-v3": "V3", "axidraw-v3-a3": "A3", "axidraw-v3-xlx": "XLX", "axidraw-v3-b6": "B6" },
+    families: [
+      {
+        name: "AxiDraw V3",
+        models: { "axidraw-v3": "V3", "axidraw-v3-a3": "A3", "axidraw-v3-xlx": "XLX", "axidraw-v3-b6": "B6" },
+      },
+    ],
   },
   {
-    name: "AxiDraw SE",
     picture: "se",
-    models: { "axidraw-se-a4": "A4", "axidraw-se-a3": "A3", "axidraw-se-a2": "A2", "axidraw-se-a1": "A1" },
+    families: [
+      {
+        name: "AxiDraw SE",
+        models: {
+          "axidraw-se-a4": "A4",
+          "axidraw-se-a3": "A3",
+          "axidraw-se-a2": "A2",
+          "axidraw-se-a1": "A1",
+        },
+      },
+    ],
   },
   {
-    name: "NextDraw",
     picture: "nextdraw",
-    models: { "nextdraw-8511": "8511", "nextdraw-1117": "1117", "nextdraw-2234": "2234" },
+    families: [
+      {
+        name: "NextDraw",
+        models: { "nextdraw-8511": "8511", "nextdraw-1117": "1117", "nextdraw-2234": "2234" },
+      },
+    ],
+  },
+  {
+    picture: "idraw",
+    families: [
+      { name: "iDraw H", models: { "idraw-h-a4": "A4", "idraw-h-a3": "A3" } },
+      { name: "iDraw 2.0", models: { "idraw-2-a4": "A4", "idraw-2-a3": "A3" } },
+    ],
   },
 ];
 
@@ -59,13 +88,17 @@ export const ModelCards = ({ onChoose }: { onChoose(): void }) => {
   };
   return (
     <div className="model-cards">
-      {FAMILIES.map(({ name, picture, models }) => (
-        <div key={name} className="model-card">
+      {CARDS.map(({ picture, families }) => (
+        <div key={picture} className="model-card">
           <MachinePicture name={picture} />
-          <span className="model-family">{name}</span>
-          <span className="model-sizes">
-            {Object.entries(models).map(([id, label]) => button(id, label))}
-          </span>
+          {families.map(({ name, models }) => (
+            <div key={name}>
+              <span className="model-family">{name}</span>
+              <span className="model-sizes">
+                {Object.entries(models).map(([id, label]) => button(id, label))}
+              </span>
+            </div>
+          ))}
         </div>
       ))}
       <div className="model-singles">

@@ -9,7 +9,6 @@ export const guideText = {
     mark: "Put paper under the pen and draw a line. Too thin or broken: lower Height down.",
   },
   whichPlotter: "Which plotter is this?",
-  otherModels: "iDraw, or another one with a Grbl:",
   allModels: "All models",
   chooseModel: "Choose…",
   inCorner: "The carriage is in its corner",
