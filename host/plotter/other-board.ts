@@ -15,7 +15,7 @@ export class OtherBoardError extends PlotwrightError {
   ) {
     super(
       "no-board",
-      `${path === undefined ? "" : `${path}: `}${board.answer} answers on this port, but the model has another controller: choose your plotter's with --machine.`,
+      `${path === undefined ? "" : `${path}: `}${board.answer} answers on this port, but the model has another controller: choose your plotter's model, or on the command line give it with --machine.`,
       options,
     );
   }

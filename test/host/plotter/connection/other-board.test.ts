@@ -7,7 +7,7 @@ import { PlotterRegistry } from "../../../../host/plotter/plotter-registry.js";
 import type { PlotterRow } from "../../../../host/storage.js";
 import { VirtualGrbl } from "../../../../src/drivers/grbl/virtual/virtual-grbl.js";
 import { PlotwrightError, VirtualBoard, type Transport } from "../../../../src/index.js";
-import { allDrivers, hasUsbId } from "../../../../src/internal.js";
+import { allDrivers, hasUsbId, inPageWords } from "../../../../src/internal.js";
 import { DEFAULT_PLOT_SETTINGS, type PlotSettings } from "../../../../src/schema/index.js";
 import { ManualClock } from "../../../support/clocks/manual-clock.js";
 import { GRBL } from "../../../support/machines/machine.js";
@@ -70,6 +70,8 @@ describe("a plotter whose model has an EiBotBoard", () => {
       message: expect.stringMatching(/^Grbl 1.1h answers on this port, but the model has another controller/),
       otherBoard: { answer: "Grbl 1.1h", controller: "grbl" },
     });
+    // The page's control has another name in the first steps.
+    expect(inPageWords(plotter.state.message!)).toMatch(/: choose your plotter's model\.$/);
     plotter.use(WITH_GRBL);
     await world.advance(1);
     await world.run(plotter.settled());
