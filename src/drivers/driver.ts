@@ -313,7 +313,7 @@ export interface Playback {
    */
   readonly receivedPlace: StrokePosition | undefined;
   /**
-   * How much motion after the current place can be sent within `withinS` from now, in the machine's seconds. Undefined at
+   * How much motion after the first place that may not be drawn can be sent within `withinS` from now, in the machine's seconds. Undefined at
    * rest. Left out by a machine that is sent motion by time (`sendAheadMs`).
    */
   sentAheadS?(withinS: number): number | undefined;

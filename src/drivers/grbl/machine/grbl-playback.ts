@@ -84,7 +84,7 @@ export class GrblPlayback implements Playback {
   sentAheadS(withinS: number): number | undefined {
     if (!this.current) return this.aheadAtEndS;
     const { stream } = this.current;
-    return stream.sentS(withinS) - stream.planS;
+    return stream.sentS(withinS) - stream.boundsS[0];
   }
 
   now(): PlotProgress | null {

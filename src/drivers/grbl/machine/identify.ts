@@ -2,7 +2,7 @@
 import type { SessionLog } from "../../session-log.js";
 import { delay, type Clock } from "../../transport.js";
 import { SYNC } from "../grbl-job.js";
-import { CHECK, INFO, isMoving, mayBeDrawCore, NOW, OWN_VERSION, type Status } from "../protocol.js";
+import { CHECK, INFO, isHeld, isMoving, mayBeDrawCore, NOW, OWN_VERSION, type Status } from "../protocol.js";
 
 /** What is needed of its session. */
 interface AskedGrbl {
@@ -35,8 +35,9 @@ const HOLD_S = 0.5;
 export async function askVersion(grbl: AskedGrbl, isAgain: boolean): Promise<string | null> {
   // A Grbl that sleeps, holds or works for another program answers only after a reset. Reset in motion it is locked.
   if (isAgain) {
-    if (grbl.lastStatus && isMoving(grbl.lastStatus.state)) {
-      grbl.isCutShort = true;
+    const { state = "" } = grbl.lastStatus ?? {};
+    grbl.isCutShort = isMoving(state) || isHeld(state);
+    if (isMoving(state)) {
       grbl.now(NOW.hold);
       await delay(grbl.clock, HOLD_S);
     }

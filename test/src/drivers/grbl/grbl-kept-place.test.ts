@@ -38,7 +38,12 @@ const FACES: readonly VirtualGrblOptions[] = [
   { face: "DrawCore" },
 ];
 
-type How = "killed" | "unplugged" | "killed while it pauses" | "killed, and the Grbl is reset";
+type How =
+  | "killed"
+  | "unplugged"
+  | "unplugged, then held by another program"
+  | "killed while it pauses"
+  | "killed, and the Grbl is reset";
 
 /** Interrupts a plot after `atS`, and resumes it by a new process, or after the cable is back. */
 async function interrupted(
@@ -49,6 +54,7 @@ async function interrupted(
   settings = settingsWith(options),
   restS = REST_S,
 ) {
+  const isUnplugged = how.startsWith("unplugged");
   const { world, board, ...first } = await newPlotter(options, machineOf(settings));
   const journal: JournalEntry[] = [];
   const record = (entry: JournalEntry): void => void journal.push(entry);
@@ -61,8 +67,12 @@ async function interrupted(
   }
   // What the dead process would still write is not written.
   const atKill = journal.at(-1)!;
-  if (how === "unplugged") first.line().unplug();
+  if (isUnplugged) first.line().unplug();
   else first.kill();
+  if (how === "unplugged, then held by another program") {
+    await world.advance(0.5);
+    board.takeFromOther("!");
+  }
   await world.advance(restS);
   if (how === "killed, and the Grbl is reset") {
     board.restart();
@@ -70,8 +80,8 @@ async function interrupted(
     board.pushHome();
     board.pushPen(0);
   }
-  const last = how === "unplugged" ? journal.at(-1)! : atKill;
-  const next = how === "unplugged" ? first : await plotterOn(board, world, machineOf(settings));
+  const last = isUnplugged ? journal.at(-1)! : atKill;
+  const next = isUnplugged ? first : await plotterOn(board, world, machineOf(settings));
   const found = next.driver.state;
   const start = { ...startAfter(last), journal: { record } };
   const resumed = await next.begin(new LocalPlanner(strokes), start, settings);
@@ -235,18 +245,21 @@ describe.each(FACES)("a plot of long, slow lines on $face", (options) => {
   const DRAWN_S = 400;
 
   // Its queue holds up to 100 s of the drawing. A plotter that is connected again stops it after a minute.
-  it.each(["killed", "unplugged"] as const)("goes on where it stopped if it is %s", async (how) => {
-    const count = cases(6, 2);
-    for (let i = 0; i < count; i++) {
-      const atS = 5 + (20 * i) / count;
-      const { gapMm, overlapMm } = await interrupted(how, options, atS, ZIGZAG, SLOW, DRAWN_S);
-      expect({ atS, isWhole: gapMm < MOST_MM, isOnce: overlapMm < MOST_MM }).toEqual({
-        atS,
-        isWhole: true,
-        isOnce: true,
-      });
-    }
-  });
+  it.each(["killed", "unplugged", "unplugged, then held by another program"] as const)(
+    "goes on where it stopped if it is %s",
+    async (how) => {
+      const count = cases(6, 2);
+      for (let i = 0; i < count; i++) {
+        const atS = 5 + (20 * i) / count;
+        const { gapMm, overlapMm } = await interrupted(how, options, atS, ZIGZAG, SLOW, DRAWN_S);
+        expect({ atS, isWhole: gapMm < MOST_MM, isOnce: overlapMm < MOST_MM }).toEqual({
+          atS,
+          isWhole: true,
+          isOnce: true,
+        });
+      }
+    },
+  );
 });
 
 describe("the place of a Grbl", () => {
