@@ -159,9 +159,8 @@ export { isBetween, maxOffDrawingMm, maxOffLineMm, reportedPosition } from "./po
 
 // machines
 export type { Springs } from "./machines/profile.js";
-export { findMachine, machineOf, type MachineId } from "./machines/profiles.js";
+export { findMachine, machineNamed, machineOf, type MachineId } from "./machines/profiles.js";
 export { freeId, measuredMachine } from "./machines/own-machines.js";
-export { machineNamed } from "./machines/named.js";
 export {
   DIRECTIONS,
   machineTurned,

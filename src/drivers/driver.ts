@@ -313,8 +313,8 @@ export interface Playback {
    */
   readonly receivedPlace: StrokePosition | undefined;
   /**
-   * How much motion after the first place that may not be drawn can be sent within `withinS` from now, in the machine's seconds. Undefined at
-   * rest. Left out by a machine that is sent motion by time (`sendAheadMs`).
+   * How much motion after the first place that may not be drawn can be sent within `withinS` from now, in the machine's
+   * seconds. Undefined at rest. Left out by a machine that is sent motion by time (`sendAheadMs`).
    */
   sentAheadS?(withinS: number): number | undefined;
   /** Plays a plan to its end, or to a hold; the pen must be up. `afterS`: time of the plot after the end of this plan. */

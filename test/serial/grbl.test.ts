@@ -13,7 +13,8 @@ import type { JournalEntry } from "../../host/plotter/plotter-port.js";
 import type { VirtualGrblOptions } from "../../src/drivers/grbl/virtual/virtual-settings.js";
 import { toJson } from "../../src/internal.js";
 import { compareDrawn } from "../support/drawings/drawn-truth.js";
-import { farthest, SegmentGrid } from "../support/drawings/segment-grid.js";
+import { gridOf, pointsOf } from "../support/drawings/polylines.js";
+import { farthest } from "../support/drawings/segment-grid.js";
 import { GRBL } from "../support/machines/machine.js";
 import { FAULT_DRAWING, untilIdle, untilUnderWay, waitS } from "../support/plots/faulty-plots.js";
 import { SETTINGS } from "../support/plots/grbl-plotter.js";
@@ -58,16 +59,6 @@ async function grbl(options: VirtualGrblOptions, speed: number): Promise<PtyGrbl
   return board;
 }
 
-function* points(lines: readonly (readonly number[])[]): Iterable<readonly [number, number]> {
-  for (const xy of lines) for (let i = 0; i < xy.length; i += 2) yield [xy[i], xy[i + 1]];
-}
-
-function gridOf(lines: readonly (readonly number[])[]): SegmentGrid {
-  const grid = new SegmentGrid(1);
-  for (const xy of lines) grid.addPolyline(xy);
-  return grid;
-}
-
 describe.each(GRBLS)("plot on a $face behind a pseudo-terminal", (options) => {
   it.each(SAMPLES)("draws %s within 0.05 mm", { timeout: 300_000 }, async (name) => {
     const board = await grbl(options, SPEED);
@@ -108,8 +99,8 @@ async function expectDrawn(board: PtyGrbl): Promise<void> {
   expect(state).toMatchObject({ penUp: true, xMm: 0, yMm: 0, lostCount: 0, earlyCount: 0 });
   const asked = polylinesOf(readFileSync(join(dir, "strokes.json"), "utf8"));
   const lines = drawn.flatMap(({ penDown, xy }) => (penDown && xy.length > 2 ? [xy] : []));
-  expect(farthest(points(lines), gridOf(asked))).toBeLessThan(MOST_MM);
-  expect(farthest(points(asked), gridOf(lines))).toBeLessThan(MOST_MM);
+  expect(farthest(pointsOf(lines), gridOf(asked))).toBeLessThan(MOST_MM);
+  expect(farthest(pointsOf(asked), gridOf(lines))).toBeLessThan(MOST_MM);
 }
 
 const polylinesOf = (text: string): number[][] =>

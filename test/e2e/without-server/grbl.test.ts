@@ -2,12 +2,13 @@
 import { readFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
-import { MACHINES, type StrokeSet } from "../../../src/index.js";
+import { MACHINES } from "../../../src/index.js";
 import { dropFile, openGroup, openPanel, statusCard } from "../../support/browser/page-actions.js";
 import { silentDevice, type GrblOptions } from "../../support/browser/grbl-device.js";
 import { done, expectState, storedJob, useSerialPages } from "../../support/browser/serial-page.js";
 import { strokesInBrowser } from "../../support/browser/strokes-in-browser.js";
-import { farthest, SegmentGrid } from "../../support/drawings/segment-grid.js";
+import { gridOf, linesOf, pointsOf } from "../../support/drawings/polylines.js";
+import { farthest } from "../../support/drawings/segment-grid.js";
 import { IS_FULL } from "../../support/runs/full-run.js";
 
 const PATIENCE_MS = 90_000;
@@ -19,19 +20,6 @@ async function chooseModel(page: Page, label: string): Promise<void> {
   await openGroup(page, "Plotter", "Model and position");
   await page.getByLabel("Model", { exact: true }).selectOption({ label });
 }
-
-function* points(lines: Iterable<ArrayLike<number>>): Iterable<readonly [number, number]> {
-  for (const xy of lines) for (let i = 0; i < xy.length; i += 2) yield [xy[i], xy[i + 1]];
-}
-
-function gridOf(lines: Iterable<ArrayLike<number>>): SegmentGrid {
-  const grid = new SegmentGrid(1);
-  for (const xy of lines) grid.addPolyline(xy);
-  return grid;
-}
-
-const linesOf = ({ xy, offsets }: StrokeSet): Float64Array[] =>
-  Array.from({ length: offsets.length - 1 }, (_, s) => xy.subarray(2 * offsets[s], 2 * offsets[s + 1]));
 
 type Grbl = readonly [name: string, label: string, device: Omit<GrblOptions, "speed">];
 const DRAWCORE: Grbl = [
@@ -89,8 +77,8 @@ describe.each([DRAWCORE, PLAIN, FLUIDNC].slice(0, IS_FULL ? undefined : 1))("%s"
     const asked = linesOf(await strokesInBrowser(page, svg, settings));
     const drawn = machine.drawn().flatMap(({ penDown, xy }) => (penDown ? [xy] : []));
     expect(machine.state()).toMatchObject({ lostCount: 0, penUp: true });
-    expect(farthest(points(drawn), gridOf(asked))).toBeLessThan(MOST_AWAY_MM);
-    expect(farthest(points(asked), gridOf(drawn))).toBeLessThan(MOST_AWAY_MM);
+    expect(farthest(pointsOf(drawn), gridOf(asked))).toBeLessThan(MOST_AWAY_MM);
+    expect(farthest(pointsOf(asked), gridOf(drawn))).toBeLessThan(MOST_AWAY_MM);
   });
 });
 

@@ -36,7 +36,7 @@ export async function askVersion(grbl: AskedGrbl, isAgain: boolean): Promise<str
   // A Grbl that sleeps, holds or works for another program answers only after a reset. Reset in motion it is locked.
   if (isAgain) {
     const { state = "" } = grbl.lastStatus ?? {};
-    grbl.isCutShort = isMoving(state) || isHeld(state);
+    grbl.isCutShort ||= isMoving(state) || isHeld(state);
     if (isMoving(state)) {
       grbl.now(NOW.hold);
       await delay(grbl.clock, HOLD_S);

@@ -43,7 +43,9 @@ export const foundMidPlot = (penUp: boolean, run: number, isCutShort: boolean): 
   isOfRun: (other) => other !== undefined && keptRun(other) === run,
 });
 
-/** The line that tells a later process where home is; that it is unknown, if it is null or somewhere else. `run`: a `keptRun`. */
+/**
+ * The line that tells a later process where home is; that it is unknown, if it is null or somewhere else. `run`: a `keptRun`.
+ */
 export function homeMark(home: Axes | null, run: number | null, settings: BoardSettings): string {
   if (home && isSame(home, [0, 0, 0])) return `T${run === null ? AT_ZERO : IN_PLOT_FROM_ZERO + run}`;
   const atSwitches = settings.afterHoming;

@@ -1,4 +1,7 @@
-/** Where the carriage of one Grbl is, and what the Grbl keeps of it for a later process. A carriage whose place is unknown counts as at home. */
+/**
+ * Where the carriage of one Grbl is, and what the Grbl keeps of it for the next connection. A carriage whose place is unknown
+ * counts as at home.
+ */
 import { positionFromMotors } from "../../../machines/motors.js";
 import type { MachineProfile } from "../../../machines/profile.js";
 import type { FoundMidPlot, PenBefore } from "../../driver.js";
@@ -72,7 +75,10 @@ export class GrblPosition {
         : memory.foundMidPlot;
   }
 
-  /** Call with its number before a run of a plot moves the carriage. Call with null when it has ended, and before anything else does. */
+  /**
+   * Call with its number before a run of a plot moves the carriage. Call with null when it has ended, and before anything
+   * else moves it.
+   */
   async noteRun(number: number | null): Promise<void> {
     const run = number === null ? null : keptRun(number);
     if (run === this.run) return;
@@ -80,7 +86,7 @@ export class GrblPosition {
     await this.mark();
   }
 
-  /** Tells a later process where home is, as far as that is possible. */
+  /** Tells the next connection where home is, as far as that is possible. */
   mark(): Promise<void> {
     const { session, pen, home, run } = this;
     return session.attempt(homeMark(pen.zeroMm === null ? home : null, run, session.settings));

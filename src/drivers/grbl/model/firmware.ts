@@ -1,4 +1,7 @@
-/** What a plan needs to know of a Grbl's version: "Grbl 1.1h", "grblHAL 1.1f", "FluidNC 3.7.16" or "DrawCore 2.09". */
+/**
+ * What a plan needs to know of a Grbl's version: "Grbl 1.1h", "grblHAL 1.1f", "FluidNC 3.7.16" or "DrawCore 2.09". Apart from
+ * protocol.ts, so that a page loads that only with a connection.
+ */
 
 /** Whether a version names Grbl or one of its children. */
 export const isOwnVersion = (version: string): boolean => /^(Grbl|grblHAL|FluidNC|DrawCore) /.test(version);

@@ -4,9 +4,9 @@
  */
 import { describe, expect, it } from "vitest";
 import type { VirtualGrblOptions } from "../../../../src/drivers/grbl/virtual/virtual-settings.js";
-import type { StrokeSet } from "../../../../src/index.js";
 import { sampleStrokes } from "../../../support/drawings/sample-strokes.js";
-import { farthest, SegmentGrid } from "../../../support/drawings/segment-grid.js";
+import { gridOf, linesOf, pointsOf } from "../../../support/drawings/polylines.js";
+import { farthest } from "../../../support/drawings/segment-grid.js";
 import { logOfPlot, newPlotter } from "../../../support/plots/grbl-plotter.js";
 import { KeepingPlanner } from "../../../support/drawings/stop-truth.js";
 import { IS_FULL } from "../../../support/runs/full-run.js";
@@ -39,19 +39,6 @@ const GRBLS: readonly (readonly [name: string, VirtualGrblOptions, mostStarved: 
   ["DrawCore", { face: "DrawCore" }, SMALL_BUFFER_STARVES],
 ];
 
-function* points(lines: Iterable<ArrayLike<number>>): Iterable<readonly [number, number]> {
-  for (const xy of lines) for (let i = 0; i < xy.length; i += 2) yield [xy[i], xy[i + 1]];
-}
-
-function gridOf(lines: Iterable<ArrayLike<number>>): SegmentGrid {
-  const grid = new SegmentGrid(1);
-  for (const xy of lines) grid.addPolyline(xy);
-  return grid;
-}
-
-const linesOf = ({ xy, offsets }: StrokeSet): Float64Array[] =>
-  Array.from({ length: offsets.length - 1 }, (_, s) => xy.subarray(2 * offsets[s], 2 * offsets[s + 1]));
-
 describe.each(SAMPLES.slice(0, IS_FULL ? undefined : 1))("%s", (name) => {
   it.each(GRBLS)(
     "is drawn within 0.05 mm and 1 % of the time on %s",
@@ -72,8 +59,8 @@ describe.each(SAMPLES.slice(0, IS_FULL ? undefined : 1))("%s", (name) => {
       expect(logOfPlot(driver)).not.toMatch(/ALARM|error:/);
       const drawn = board.drawn().flatMap(({ penDown, xy }) => (penDown ? [xy] : []));
       const asked = linesOf(strokes);
-      expect(farthest(points(drawn), gridOf(asked))).toBeLessThan(MOST_AWAY_MM);
-      expect(farthest(points(asked), gridOf(drawn))).toBeLessThan(MOST_AWAY_MM);
+      expect(farthest(pointsOf(drawn), gridOf(asked))).toBeLessThan(MOST_AWAY_MM);
+      expect(farthest(pointsOf(asked), gridOf(drawn))).toBeLessThan(MOST_AWAY_MM);
     },
   );
 });
