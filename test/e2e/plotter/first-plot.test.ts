@@ -213,6 +213,12 @@ describe("a new plotter, by keyboard alone", () => {
     await enter("Pen down");
     await expect.poll(ticks).toBe(3);
     await expect.poll(focused).toBe("Pen down");
+    // The line is off until the pen has arrived.
+    await expect.poll(plotter).toMatchObject({ penUp: false, connection: "idle" });
+    await test.page
+      .getByRole("button", { name: "Draw a test line" })
+      .and(test.page.locator(":enabled"))
+      .waitFor();
     await enter("Draw a test line");
     await expect.poll(ticks).toBe(4);
     await tabTo("Hello");
